@@ -1,0 +1,55 @@
+"""Results to print: an audit or a check goes in, one string in the asked format comes out.
+
+The registry of formats stands here, one file per format beside it. Renderers read results and decide nothing:
+what is a violation, and why, was settled before. No file is opened here, nothing is printed, and the same
+result gives the same characters every time. Names out of a trace are other people's text: every format shows
+them escaped.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+from mmsverify.errors import UsageError
+from mmsverify.report import (
+    audit_html,
+    audit_json,
+    audit_junit,
+    audit_sarif,
+    audit_text,
+    check_json,
+    check_text,
+)
+from mmsverify.results import Audit, ModelCheck
+
+__all__ = ["AUDIT_FORMATS", "CHECK_FORMATS", "render_audit", "render_check", "require_format"]
+
+AUDIT_FORMATS: Mapping[str, Callable[[Audit], str]] = {
+    "text": audit_text.render,
+    "json": audit_json.render,
+    "sarif": audit_sarif.render,
+    "junit": audit_junit.render,
+    "html": audit_html.render,
+}
+
+CHECK_FORMATS: Mapping[str, Callable[[Sequence[ModelCheck]], str]] = {
+    "text": check_text.render,
+    "json": check_json.render,
+}
+
+
+def render_audit(audit: Audit, format: str) -> str:
+    """The audit in ``format``, a key of ``AUDIT_FORMATS``; the text ends with a line feed."""
+    return AUDIT_FORMATS[require_format(format, AUDIT_FORMATS)](audit)
+
+
+def render_check(checks: Sequence[ModelCheck], format: str) -> str:
+    """The verdicts in ``format``, a key of ``CHECK_FORMATS``; the text ends with a line feed."""
+    return CHECK_FORMATS[require_format(format, CHECK_FORMATS)](checks)
+
+
+def require_format(format: str, known: Mapping[str, object] | Sequence[str]) -> str:
+    """``format`` itself if it is one of ``known``; else a usage error that lists them."""
+    if format not in known:
+        raise UsageError(f"no format {format!r} here", place="--format", cure=f"one of {', '.join(known)}")
+    return format

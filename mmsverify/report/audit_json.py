@@ -1,0 +1,63 @@
+"""An audit as JSON, schema ``mmsverify.audit/1``. Its keys are stable; new ones may be added."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+from mmsverify.report.order import ordered, tally
+from mmsverify.report.wording import plain, seconds
+from mmsverify.results import Audit, AuditedInput, Finding
+
+SCHEMA = "mmsverify.audit/1"
+
+
+def render(audit: Audit) -> str:
+    # ASCII: file names that are not valid text survive as escapes, whatever the encoding of stdout.
+    return json.dumps(document(audit), indent=2, ensure_ascii=True) + "\n"
+
+
+def document(audit: Audit) -> dict[str, Any]:
+    counts = tally(audit.findings)
+    return {
+        "schema": SCHEMA,
+        "inputs": [_input(entry) for entry in audit.inputs],
+        "summary": {
+            "violations": len(audit.findings),
+            "errors": counts["error"],
+            "warnings": counts["warning"],
+            "notes": counts["note"],
+        },
+        "violations": [_violation(finding) for finding in ordered(audit.findings)],
+    }
+
+
+def _input(entry: AuditedInput) -> dict[str, Any]:
+    return {
+        "path": entry.path,
+        "messages": entry.messages,
+        "events": entry.events,
+        "skipped": entry.skipped,
+        "truncated": entry.truncated,
+        "seconds": seconds(entry.seconds),
+    }
+
+
+def _violation(finding: Finding) -> dict[str, Any]:
+    violation = {
+        "path": finding.path,
+        "index": finding.index,
+        "time": finding.time,
+        "topic": finding.topic,
+        "vmd": finding.vmd,
+        "severity": finding.severity,
+        "rule": finding.rule,
+        "clauses": list(finding.clauses),
+        "readings": list(finding.readings),
+        "message": finding.message,
+        "expected": list(finding.expected),
+        "observed": finding.observed,
+        "before": plain(finding.before),
+        "related": list(finding.related),
+    }
+    return violation | ({"count": finding.count} if finding.count > 1 else {})
