@@ -1,0 +1,89 @@
+"""Declared claims: what must hold of every state, of some reachable state, of every step; and what the text leaves open."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from mmsverify.model import expr as ex
+from mmsverify.model.declare import Declared
+from mmsverify.model.place import caller, mistake
+from mmsverify.model.rows import Claim, Clause, Conjunct, Gap, Repair
+from mmsverify.model.terms import Term, formula
+
+
+class ClaimSource(Declared):
+    """A declaration that becomes a claim."""
+
+    kind: Literal["always", "sometimes", "step"]
+
+    def __init__(self, clause: str, condition: Term | bool, *cites: str, says: str = "", repairs: Repair | None = None) -> None:
+        self.place = caller()
+        if not isinstance(clause, str) or not clause:
+            raise mistake("a claim without a clause", f"write {type(self).__name__}('R-...', formula)", self.place)
+        self.clause = Clause.of(clause, *cites)
+        self.formula = formula(condition)
+        self.says = says
+        self.repairs = repairs
+        if self.kind != "step" and ex.reads_next(self.formula):
+            raise mistake("'.next' outside a Step claim", "state it as Step(clause, ...)", self.place)
+
+    def claim(self) -> Claim:
+        """The claim as plain data."""
+        return Claim(self.name, self.kind, self.clause, self.formula, self.says, place=self.place)
+
+
+class Always(ClaimSource):
+    """Holds in every reachable state."""
+
+    kind = "always"
+
+
+class Sometimes(ClaimSource):
+    """Holds in some reachable state; beside every ``Always``, so that no proof is vacuous."""
+
+    kind = "sometimes"
+
+
+class Step(ClaimSource):
+    """Holds of every step: a formula over ``x`` and ``x.next``. ``by`` restricts it to the rows of some services or answers."""
+
+    kind = "step"
+
+
+class Initially(Declared):
+    """A condition on the state at power-on."""
+
+    def __init__(self, clause: str, condition: Term | bool, *cites: str, repairs: Repair | None = None) -> None:
+        self.place = caller()
+        self.conjunct = Conjunct(formula(condition), Clause.of(clause, *cites))
+        self.repairs = repairs
+
+
+class Assume(Declared):
+    """A fact about what never changes (``rigid`` variables): what a profile must respect."""
+
+    def __init__(self, clause: str, condition: Term | bool, *cites: str) -> None:
+        self.place = caller()
+        self.conjunct = Conjunct(formula(condition), Clause.of(clause, *cites))
+        self.repairs: Repair | None = None
+
+
+class Unspecified(Declared):
+    """An event in states for which the text gives no rule; declared, so that the gap is known."""
+
+    def __init__(self, clause: str, says: str, *cites: str) -> None:
+        self.place = caller()
+        self.repairs: Repair | None = None
+        self.clause, self.says = Clause.of(clause, *cites), says
+
+    def gap(self) -> Gap:
+        """The gap as plain data."""
+        return Gap(self.name, self.clause, self.says)
+
+
+class Removed(Declared):
+    """A row or claim of the text that a variant drops, with the reason."""
+
+    def __init__(self, *, repairs: Repair) -> None:
+        self.place = caller()
+        self.repairs = repairs

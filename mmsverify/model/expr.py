@@ -1,0 +1,405 @@
+"""Expressions as data: frozen, structurally equal, picklable. Every reader of a model walks these nodes.
+
+No operator overloading here (that is ``terms``) and no meaning beyond structure (that is each reader's).
+Conjunctions and disjunctions are flat and keep their order, for replay names the conjunct that failed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+from mmsverify.model.sorts import BOOL, ElementSort, EnumSort, Enumeration, IntSort, Sort, integer
+
+
+@dataclass(frozen=True, slots=True)
+class Expr:
+    """Any expression; ``sort`` tells what it evaluates to."""
+
+    @property
+    def sort(self) -> Sort:
+        """The sort of the value; Boolean unless a node says otherwise."""
+        return BOOL
+
+
+@dataclass(frozen=True, slots=True)
+class Const(Expr):
+    """A literal: a Boolean, an integer or a member of an enumeration."""
+
+    value: bool | int | Enumeration
+    of: Sort = BOOL
+
+    @property
+    def sort(self) -> Sort:
+        return self.of
+
+
+@dataclass(frozen=True, slots=True)
+class Ref(Expr):
+    """A parameter of a row or a bound variable, by name."""
+
+    name: str
+    of: Sort
+
+    @property
+    def sort(self) -> Sort:
+        return self.of
+
+
+@dataclass(frozen=True, slots=True)
+class Cell(Expr):
+    """A state variable at its arguments, before the step or (``next``) after it."""
+
+    variable: str
+    args: tuple[Expr, ...]
+    of: Sort
+    next: bool = False
+
+    @property
+    def sort(self) -> Sort:
+        return self.of
+
+
+@dataclass(frozen=True, slots=True)
+class Member(Expr):
+    """Whether an element belongs to a set-valued parameter."""
+
+    set: str
+    element: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class Present(Expr):
+    """Whether an optional parameter is given."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Not(Expr):
+    """Negation."""
+
+    body: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class And(Expr):
+    """Conjunction, in order."""
+
+    parts: tuple[Expr, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Or(Expr):
+    """Disjunction, in order."""
+
+    parts: tuple[Expr, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Eq(Expr):
+    """Equality of two values of one sort (also equivalence of Booleans)."""
+
+    left: Expr
+    right: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class Less(Expr):
+    """``left < right`` over the integers."""
+
+    left: Expr
+    right: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class Plus(Expr):
+    """``left + factor * right`` with a literal factor of 1 or -1: counters stay linear."""
+
+    left: Expr
+    right: Expr
+    factor: int = 1
+
+    @property
+    def sort(self) -> Sort:
+        return integer()
+
+
+@dataclass(frozen=True, slots=True)
+class Ite(Expr):
+    """If-then-else on values."""
+
+    condition: Expr
+    then: Expr
+    otherwise: Expr
+
+    @property
+    def sort(self) -> Sort:
+        return self.then.sort
+
+
+@dataclass(frozen=True, slots=True)
+class Quantified(Expr):
+    """For all, or for some, elements of the bound variables' sorts."""
+
+    universal: bool
+    bound: tuple[Ref, ...]
+    body: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class RowFact(Expr):
+    """A fact about the row that makes the step, for two-state claims: its ``answer``, ``service`` or ``name``."""
+
+    fact: str
+    values: tuple[str, ...]
+
+
+TRUE = Const(True)
+FALSE = Const(False)
+
+Rebuild = Callable[[Expr], Expr]
+
+
+def children(expr: Expr) -> tuple[Expr, ...]:
+    """The direct parts of a node, in order."""
+    match expr:
+        case Cell(args=args):
+            return args
+        case Member(element=element):
+            return (element,)
+        case Not(body=body) | Quantified(body=body):
+            return (body,)
+        case And(parts=parts) | Or(parts=parts):
+            return parts
+        case Eq(left, right) | Less(left, right) | Plus(left, right):
+            return (left, right)
+        case Ite(condition, then, otherwise):
+            return (condition, then, otherwise)
+    return ()
+
+
+def rebuilt(expr: Expr, change: Rebuild) -> Expr:
+    """The node with every direct part changed, simplified where a part became a literal."""
+    match expr:
+        case Cell(variable, args, of, after):
+            return Cell(variable, tuple(map(change, args)), of, after)
+        case Member(name, element):
+            return Member(name, change(element))
+        case Not(body):
+            return negation(change(body))
+        case And(parts):
+            return conjunction(*map(change, parts))
+        case Or(parts):
+            return disjunction(*map(change, parts))
+        case Eq(left, right):
+            return equal(change(left), change(right))
+        case Less(left, right):
+            return less(change(left), change(right))
+        case Plus(left, right, factor):
+            return plus(change(left), change(right), factor)
+        case Ite(condition, then, otherwise):
+            return choice(change(condition), change(then), change(otherwise))
+        case Quantified(universal, bound, body):
+            return quantified(universal, bound, change(body))
+    return expr
+
+
+def negation(body: Expr) -> Expr:
+    """``not body``, without double negation."""
+    if isinstance(body, Const):
+        return Const(not body.value)
+    return body.body if isinstance(body, Not) else Not(body)
+
+
+def _flat(kind: type[And] | type[Or], parts: tuple[Expr, ...], neutral: Expr, absorbing: Expr) -> Expr:
+    kept: dict[Expr, None] = {}
+    for part in parts:
+        for inner in part.parts if isinstance(part, kind) else (part,):
+            if inner == absorbing:
+                return absorbing
+            if inner != neutral:
+                kept.setdefault(inner)
+    if not kept:
+        return neutral
+    return next(iter(kept)) if len(kept) == 1 else kind(tuple(kept))
+
+
+def conjunction(*parts: Expr) -> Expr:
+    """The flat conjunction of the parts, without literals and repetitions."""
+    return _flat(And, parts, TRUE, FALSE)
+
+
+def disjunction(*parts: Expr) -> Expr:
+    """The flat disjunction of the parts, without literals and repetitions."""
+    return _flat(Or, parts, FALSE, TRUE)
+
+
+def equal(left: Expr, right: Expr) -> Expr:
+    """``left == right``; equality with a truth value is the formula itself or its negation."""
+    if left == right:
+        return TRUE
+    if isinstance(left, Const) and isinstance(right, Const):
+        return Const(left.value == right.value)
+    if isinstance(left, Const):
+        left, right = right, left
+    if isinstance(right, Const) and right.sort is BOOL:
+        return left if right.value else negation(left)
+    return Eq(left, right)
+
+
+def less(left: Expr, right: Expr) -> Expr:
+    """``left < right``, decided where both are literals."""
+    if isinstance(left, Const) and isinstance(right, Const):
+        return Const(int_value(left) < int_value(right))
+    return Less(left, right)
+
+
+def plus(left: Expr, right: Expr, factor: int = 1) -> Expr:
+    """``left + factor * right``, computed where both are literals."""
+    if isinstance(left, Const) and isinstance(right, Const):
+        return Const(int_value(left) + factor * int_value(right), integer())
+    return Plus(left, right, factor)
+
+
+def int_value(const: Const) -> int:
+    """The integer of a literal whose sort was checked when the term was built."""
+    assert isinstance(const.value, int)
+    return const.value
+
+
+def choice(condition: Expr, then: Expr, otherwise: Expr) -> Expr:
+    """``then if condition else otherwise``; of Booleans it becomes connectives."""
+    if isinstance(condition, Const):
+        return then if condition.value else otherwise
+    if then == otherwise:
+        return then
+    if then.sort is BOOL:
+        return conjunction(
+            disjunction(negation(condition), then), disjunction(condition, otherwise)
+        )
+    return Ite(condition, then, otherwise)
+
+
+def quantified(universal: bool, bound: tuple[Ref, ...], body: Expr) -> Expr:
+    """The quantified formula; a body that is a literal needs no quantifier (a sort is never empty)."""
+    if isinstance(body, Const) or not bound:
+        return body
+    if isinstance(body, Quantified) and body.universal == universal:
+        return Quantified(universal, bound + body.bound, body.body)
+    return Quantified(universal, bound, body)
+
+
+def walk(expr: Expr) -> Iterator[Expr]:
+    """The node and all nodes below it, outermost first."""
+    yield expr
+    for child in children(expr):
+        yield from walk(child)
+
+
+def substitute(expr: Expr, refs: Mapping[str, Expr]) -> Expr:
+    """The expression with parameters and free bound variables replaced; a bound name is renamed rather than captured."""
+    if not refs:
+        return expr
+    if isinstance(expr, Ref):
+        return refs.get(expr.name, expr)
+    if isinstance(expr, Quantified):
+        return _substitute_under(expr, refs)
+    return rebuilt(expr, lambda part: substitute(part, refs))
+
+
+def _substitute_under(expr: Quantified, refs: Mapping[str, Expr]) -> Expr:
+    free = {name: value for name, value in refs.items() if all(ref.name != name for ref in expr.bound)}
+    taken = {name for value in free.values() for name in refs_of(value)}
+    fresh = {ref.name: Ref(_unused(ref.name, taken), ref.of) for ref in expr.bound if ref.name in taken}
+    bound = tuple(fresh.get(ref.name, ref) for ref in expr.bound)
+    return quantified(expr.universal, bound, substitute(expr.body, {**free, **fresh}))
+
+
+def _unused(name: str, taken: set[str]) -> str:
+    while name in taken:
+        name += "'"
+    return name
+
+
+def map_cells(expr: Expr, change: Callable[[Cell], Expr]) -> Expr:
+    """The expression with every cell replaced by ``change(cell)``, innermost first."""
+    inner = rebuilt(expr, lambda part: map_cells(part, change))
+    return change(inner) if isinstance(inner, Cell) else inner
+
+
+def primed(expr: Expr) -> Expr:
+    """The same expression over the state after the step."""
+    return map_cells(expr, lambda cell: Cell(cell.variable, cell.args, cell.of, True))
+
+
+@lru_cache(maxsize=65536)
+def variables_of(expr: Expr) -> frozenset[str]:
+    """Names of the state variables that the expression reads (before or after the step)."""
+    return frozenset(node.variable for node in walk(expr) if isinstance(node, Cell))
+
+
+def refs_of(expr: Expr) -> dict[str, Ref]:
+    """Parameters and bound variables that occur in the expression, by name."""
+    return {node.name: node for node in walk(expr) if isinstance(node, Ref)}
+
+
+def reads_next(expr: Expr) -> bool:
+    """Whether the expression speaks of the state after the step."""
+    return any(isinstance(node, Cell) and node.next for node in walk(expr))
+
+
+def shown(expr: Expr) -> str:
+    """The expression as a reader of the standard would write it."""
+    match expr:
+        case Const(value):
+            return str(value)
+        case Ref(name):
+            return name
+        case Cell(variable, args, _, after):
+            inner = f"[{', '.join(map(shown, args))}]" if args else ""
+            return f"{variable}{inner}{chr(39) if after else ''}"
+        case Member(name, element):
+            return f"{shown(element)} in {name}"
+        case Present(name):
+            return f"{name} present"
+        case RowFact(fact, values):
+            return f"{fact} is {' or '.join(values)}"
+        case Not(Eq(left, right)):
+            return f"{shown(left)} != {shown(right)}"
+        case Not(Less(left, right)):
+            return f"{shown(left)} >= {shown(right)}"
+        case Not(body):
+            return f"not ({shown(body)})" if isinstance(body, And | Or) else f"not {shown(body)}"
+        case And(parts):
+            return " and ".join(_bracketed(part) for part in parts)
+        case Or(parts):
+            return " or ".join(_bracketed(part) for part in parts)
+        case Eq(left, right):
+            return f"{_bracketed(left)} = {_bracketed(right)}"
+        case Less(left, right):
+            return f"{shown(left)} < {shown(right)}"
+        case Plus(left, right, factor):
+            return f"{shown(left)} {'+' if factor > 0 else '-'} {shown(right)}"
+        case Ite(condition, then, otherwise):
+            return f"({shown(then)} if {shown(condition)} else {shown(otherwise)})"
+        case Quantified(universal, bound, body):
+            names = ", ".join(ref.name for ref in bound)
+            return f"{'for all' if universal else 'for some'} {names}: {_bracketed(body)}"
+    return repr(expr)
+
+
+def _bracketed(expr: Expr) -> str:
+    return f"({shown(expr)})" if isinstance(expr, And | Or | Quantified | Eq) else shown(expr)
+
+
+def literal(value: Any, sort: Sort) -> Const | None:
+    """``value`` as a literal of ``sort``, or ``None`` if it is not one."""
+    fits = (
+        (sort is BOOL and isinstance(value, bool))
+        or (isinstance(sort, IntSort) and isinstance(value, int) and not isinstance(value, bool))
+        or (isinstance(sort, EnumSort) and value in sort.members)
+    )
+    return Const(value, sort) if fits and not isinstance(sort, ElementSort) else None

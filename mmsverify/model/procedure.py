@@ -1,0 +1,211 @@
+"""Declared rows: what a class body writes. A procedure's rows are derived from its printed steps.
+
+One accepting row for each way to result(+), one refusing row for each step that refuses, each with the effects of the
+steps before it: whether a refusal can leave a half-done effect is a question for the checker.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from mmsverify.model import expr as ex
+from mmsverify.model.declare import Assign, Declared, On
+from mmsverify.model.expr import Expr, Ref
+from mmsverify.model.place import caller, mistake
+from mmsverify.model.rows import MINUS, PLUS, SHOWN, Clause, Conjunct, Level, Repair, Row, after
+from mmsverify.model.sorts import ElementSort
+from mmsverify.model.steps import Accept, Do, ForEach, Refuse, Step, check_distinct, cited
+from mmsverify.model.terms import Element, SetOf, Term, formula
+
+
+def repaired(reading: str, *mends: str, because: str) -> Repair:
+    """The reason for a replaced or added row of a variant: its reading, the clauses that it mends, one sentence why."""
+    if not mends or not because:
+        raise mistake(f"the repair {reading} names no clause or no reason", "write repaired('RP-..', 'R-...', because='...')")
+    return Repair(Clause.of(reading, *mends), because)
+
+
+class RowSource(Declared):
+    """A declaration that becomes rows of the model."""
+
+    repairs: Repair | None = None
+
+    def rows(self) -> Iterator[Row]:
+        """The rows of this declaration."""
+        raise NotImplementedError
+
+
+def needs(*cites: str, says: str = "", rule: str = "", level: Level = "error", that: object) -> Conjunct:
+    """One guard conjunct with the clause that demands it."""
+    return Conjunct(formula(that), Clause.of(*cites), rule, says, level)
+
+
+class Transition(RowSource):
+    """One row: on an event, when all conditions hold, make the updates. ``clause`` cites it; more ids may follow."""
+
+    def __init__(
+        self,
+        *clauses: str,
+        on: On,
+        when: Sequence[Term | Conjunct] = (),
+        then: Sequence[Assign] = (),
+        answer: str = "",
+        observation_only: bool = False,
+        local: bool = False,
+        repairs: Repair | None = None,
+    ) -> None:
+        self.place = caller()
+        if not clauses:
+            raise mistake("a row without a clause", "cite the statement that it encodes: Transition('R-...', ...)", self.place)
+        check_distinct(then, self.place)
+        self.clause = Clause.of(*clauses)
+        self.on, self.then, self.answer, self.local = on, tuple(then), answer, local
+        self.guard = tuple(c if isinstance(c, Conjunct) else Conjunct(formula(c), self.clause) for c in when)
+        self.observation_only = observation_only
+        self.repairs = repairs
+
+    def rows(self) -> Iterator[Row]:
+        yield Row(
+            self.name, self.on, self.guard, self.then, self.answer, self.clause,
+            explains="observation" if self.observation_only else "any", local=self.local, place=self.place,
+        )  # fmt: skip
+
+
+class Observation(RowSource):
+    """What a message shows: claims that must hold of the state at some instant between request and response."""
+
+    def __init__(self, *clauses: str, on: On, shows: Sequence[Conjunct], repairs: Repair | None = None) -> None:
+        self.place = caller()
+        if not clauses:
+            raise mistake("an observation without a clause", "cite the statement that it encodes", self.place)
+        self.clause, self.on, self.shows, self.repairs = Clause.of(*clauses), on, tuple(shows), repairs
+
+    def rows(self) -> Iterator[Row]:
+        yield Row(self.name, self.on, self.shows, (), SHOWN, self.clause, place=self.place)
+
+
+class Procedure(RowSource):
+    """The ordered steps of a service procedure; ``clause`` is the prefix that the printed labels extend.
+
+    ``always`` are updates of every outcome (leaving the transient state, forgetting the request).
+    """
+
+    def __init__(
+        self,
+        clause: str,
+        *,
+        on: On,
+        steps: Sequence[Step],
+        always: Sequence[Assign] = (),
+        repairs: Repair | None = None,
+    ) -> None:
+        self.place = caller()
+        if not clause:
+            raise mistake("a row without a clause", "give the clause of the procedure", self.place)
+        if not any(isinstance(step, Accept) for step in steps):
+            raise mistake("a procedure that never accepts", "end the steps with accept('m')", self.place)
+        self.clause, self.on, self.steps, self.always, self.repairs = clause, on, tuple(steps), tuple(always), repairs
+
+    def rows(self) -> Iterator[Row]:
+        run = _Run(self)
+        for step in self.steps:
+            yield from run.take(step)
+
+
+@dataclass(slots=True)
+class _Run:
+    """The symbolic run of a procedure: the conditions passed so far and the effects made so far, over the first state."""
+
+    source: Procedure
+    passed: tuple[Conjunct, ...] = ()
+    made: tuple[Assign, ...] = ()
+    choices: tuple[Ref | SetOf, ...] = ()
+    clause: Clause = Clause(())
+
+    def take(self, step: Step) -> Iterator[Row]:
+        self.clause = self.clause + cited(self.source.clause, step)
+        match step:
+            case Refuse():
+                yield from self._refuse(step)
+            case Do():
+                self._do(step.assigns)
+            case Accept():
+                yield from self._accept(step)
+            case ForEach():
+                yield from self._for_each(step)
+
+    def now(self, condition: Expr) -> Expr:
+        """A condition on the present state as one over the state at the start."""
+        return after(condition, self.made)
+
+    def _conjunct(self, step: Refuse | Accept | ForEach, condition: Expr) -> Conjunct:
+        own = cited(self.source.clause, step)
+        if isinstance(step, Accept):
+            return Conjunct(condition, own)
+        rule = step.rule or f"{self.source.name}.{step.label}".lower()
+        level = step.level if isinstance(step, Refuse) else "error"
+        return Conjunct(condition, own, rule, step.says, level)
+
+    def _row(self, step: Step, answer: str, more: tuple[Conjunct, ...] = (), then: tuple[Assign, ...] = ()) -> Row:
+        made = self.made + self._over_start(then) + self._over_start(self.source.always)
+        own = cited(self.source.clause, step) if answer == MINUS else self.clause
+        return Row(
+            self.source.name, self.source.on, self.passed + more, made, answer, own,
+            choices=self.choices, step=step.label, place=step.place,
+        )  # fmt: skip
+
+    def _over_start(self, assigns: Sequence[Assign]) -> tuple[Assign, ...]:
+        return tuple(
+            replace(a, args=tuple(map(self.now, a.args)), value=self.now(a.value), where=self.now(a.where)) for a in assigns
+        )
+
+    def _refuse(self, step: Refuse) -> Iterator[Row]:
+        condition = self.now(step.condition)
+        yield self._row(step, MINUS, (self._conjunct(step, condition),), step.then)
+        self.passed += (self._conjunct(step, ex.negation(condition)),)
+
+    def _do(self, assigns: Sequence[Assign]) -> None:
+        for assign in assigns:
+            for name, ref in ex.refs_of(assign.where).items():
+                if name.startswith("chooses_") and ref not in self.choices:
+                    self.choices += (ref,)
+        self.made += self._over_start(assigns)
+
+    def _accept(self, step: Accept) -> Iterator[Row]:
+        condition = self.now(step.condition)
+        yield self._row(step, PLUS, () if condition == ex.TRUE else (self._conjunct(step, condition),))
+        self.passed += (self._conjunct(step, ex.negation(condition)),)
+
+    def _for_each(self, step: ForEach) -> Iterator[Row]:
+        """Two rows in place of a loop: it fails on ``bad`` after handling ``done``, or it handles all."""
+        sort = step.element.of
+        assert isinstance(sort, ElementSort)
+        bad, done = Element(Ref(f"bad_{step.label}", sort)), SetOf(f"done_{step.label}", sort)
+        saved = self.choices
+        self.choices += (bad.ref, done)
+        yield self._row(step, MINUS, (self._conjunct(step, self._fails(step, bad, done)),), self._half_done(step, done))
+        self.choices = saved
+        everywhere = ex.quantified(True, (step.element,), ex.disjunction(ex.negation(step.where), step.possible))
+        self.passed += (self._conjunct(step, self.now(everywhere)),)
+        self._do(tuple(_over(assign, step.element, step.where) for assign in step.body))
+
+    def _fails(self, step: ForEach, bad: Element, done: SetOf) -> Expr:
+        at_bad = ex.substitute(ex.conjunction(step.where, ex.negation(step.possible)), {step.element.name: bad.expr})
+        inside = ex.Member(done.name, step.element)
+        handled = ex.disjunction(ex.negation(inside), ex.conjunction(step.where, step.possible))
+        return self.now(ex.conjunction(at_bad, ex.quantified(True, (step.element,), handled)))
+
+    def _half_done(self, step: ForEach, done: SetOf) -> tuple[Assign, ...]:
+        inside = ex.Member(done.name, step.element)
+        first = tuple(_over(assign, step.element, inside) for assign in step.body)
+        return first + tuple(
+            replace(a, where=after(a.where, first), value=after(a.value, first))
+            for a in (_over(assign, step.element, inside) for assign in step.undo)
+        )
+
+
+def _over(assign: Assign, element: Ref, where: Expr) -> Assign:
+    return replace(assign, bound=(*assign.bound, element), where=ex.conjunction(where, assign.where))
+
+
