@@ -23,7 +23,7 @@ def _place(finding: Finding) -> tuple[Any, ...]:
 
 
 def by_input(audit: Audit) -> list[tuple[str, AuditedInput | None, list[Finding]]]:
-    """Each path, how it was read (``None``: not at all) and its findings; inputs as given, unread ones last."""
+    """Each path, how it was read (``None``: not at all) and its findings; inputs as given, unread last."""
     found: dict[str, list[Finding]] = {}
     for finding in ordered(audit.findings):
         found.setdefault(finding.path, []).append(finding)

@@ -1,0 +1,20 @@
+"""Options that commands share, so that they are spelt and explained alike everywhere."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+Output = Annotated[
+    Path | None,
+    typer.Option("-o", "--output", metavar="FILE", help="Write the result to FILE instead of stdout."),
+]
+Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="No progress and no remarks on stderr.")]
+Profile = Annotated[
+    Path | None,
+    typer.Option("--profile", metavar="FILE", help="What the implementer decided (TOML, a table per model)."),
+]
+VARIANT_HELP = "as-written: the standard's text as it stands; repaired: with its faults mended."
+Variant = Annotated[str, typer.Option("--variant", metavar="as-written|repaired", help=VARIANT_HELP)]
