@@ -14,36 +14,41 @@ from mmsverify.errors import UsageError
 from mmsverify.report import CHECK_FORMATS, render_check, require_format
 from mmsverify.results import ModelCheck
 
+Models = Annotated[
+    list[str] | None,
+    typer.Argument(metavar="MODEL", help="Names or model files; all built-in ones if none."),
+]
+Variant = Annotated[str | None, typer.Option("--variant", metavar="as-written|repaired", help=VARIANT_HELP)]
+Properties = Annotated[
+    list[str] | None, typer.Option("--property", metavar="NAME", help="Only this property; may be repeated.")
+]
+Scope = Annotated[
+    str | None,
+    typer.Option("--scope", metavar="PI=4,Client=2", help="Check only up to these numbers of each."),
+]
+Unbounded = Annotated[bool, typer.Option("--unbounded", help="Only proofs for any number of each.")]
+Depth = Annotated[int | None, typer.Option("--depth", metavar="N", min=0, help="At most N steps.")]
+Timeout = Annotated[
+    float | None,
+    typer.Option("--timeout", metavar="S", help="Seconds after which a property is unknown."),
+]
+Counterexamples = Annotated[
+    Path | None,
+    typer.Option("--counterexamples", metavar="DIR", help="Write each counterexample as a trace."),
+]
+
 
 def check(
-    models: Annotated[
-        list[str] | None,
-        typer.Argument(metavar="[MODEL...]", help="Names or model files; all built-in ones if none."),
-    ] = None,
-    variant: Annotated[
-        str | None, typer.Option("--variant", metavar="as-written|repaired", help=VARIANT_HELP)
-    ] = None,
-    properties: Annotated[
-        list[str] | None,
-        typer.Option("--property", metavar="NAME", help="Only this property; may be repeated."),
-    ] = None,
-    scope: Annotated[
-        str | None,
-        typer.Option("--scope", metavar="PI=4,Client=2", help="Check only up to these numbers of each."),
-    ] = None,
-    unbounded: Annotated[
-        bool, typer.Option("--unbounded", help="Only proofs for any number of each.")
-    ] = False,
-    depth: Annotated[int | None, typer.Option("--depth", metavar="N", min=0, help="At most N steps.")] = None,
-    timeout: Annotated[
-        float | None,
-        typer.Option("--timeout", metavar="S", help="Seconds after which a property is unknown."),
-    ] = None,
+    models: Models = None,
+    *,
+    variant: Variant = None,
+    properties: Properties = None,
+    scope: Scope = None,
+    unbounded: Unbounded = False,
+    depth: Depth = None,
+    timeout: Timeout = None,
     profile: Profile = None,
-    counterexamples: Annotated[
-        Path | None,
-        typer.Option("--counterexamples", metavar="DIR", help="Write each counterexample as a trace."),
-    ] = None,
+    counterexamples: Counterexamples = None,
     format: Annotated[str, typer.Option("--format", metavar="|".join(CHECK_FORMATS))] = "text",
     output: Output = None,
     quiet: Quiet = False,

@@ -19,8 +19,8 @@ def trace_paths(arguments: Iterable[str]) -> list[Path]:
 
 
 def _meant(argument: str) -> Iterator[Path]:
-    # Most shells expand patterns themselves; a quoted one they leave to us. A file whose name happens to hold a
-    # bracket is that file.
+    # Most shells expand patterns themselves; a quoted one they leave to us. A file whose name happens to hold
+    # a bracket is that file.
     if not os.path.lexists(argument) and any(mark in argument for mark in "*?["):
         matches = sorted(glob.glob(argument, recursive=True))
     else:
