@@ -87,8 +87,16 @@ class Assign:
         return Assign(self.variable, self.args, self.value, self.bound, where, self.place)
 
     def over(self, *elements: Element) -> Assign:
-        """The same update for every value of ``elements``."""
-        return Assign(self.variable, self.args, self.value, self.bound + tuple(e.ref for e in elements), self.where, self.place)
+        """The same update for every value of ``elements``; their names are marked, so that no parameter is taken for them."""
+        marked = {e.ref.name: Ref(e.ref.name + "·", e.ref.of) for e in elements}
+        return Assign(
+            self.variable,
+            tuple(ex.substitute(arg, marked) for arg in self.args),
+            ex.substitute(self.value, marked),
+            self.bound + tuple(marked.values()),
+            ex.substitute(self.where, marked),
+            self.place,
+        )
 
 
 class Place(Term):
@@ -156,7 +164,7 @@ def unchanged(*variables: Variable) -> Term:
 def _kept(variable: Variable) -> Expr:
     refs = tuple(Ref(f"kept{i}", sort) for i, sort in enumerate(variable.sorts))
     before = Cell(variable.name, refs, variable.value_sort)
-    return ex.quantified(True, refs, ex.equal(primed(before), before))
+    return ex.bind(True, refs, ex.equal(primed(before), before))
 
 
 class Derived(Declared):

@@ -292,6 +292,15 @@ def quantified(universal: bool, bound: tuple[Ref, ...], body: Expr) -> Expr:
     return Quantified(universal, bound, body)
 
 
+BOUND = "°"  # ends the name of every bound variable, so that none is ever taken for a parameter of a row
+
+
+def bind(universal: bool, bound: tuple[Ref, ...], body: Expr) -> Expr:
+    """Close ``body`` over variables that were free in it; their names are marked as bound."""
+    marked = {ref.name: Ref(ref.name + BOUND, ref.of) for ref in bound}
+    return quantified(universal, tuple(marked.values()), substitute(body, marked))
+
+
 def walk(expr: Expr) -> Iterator[Expr]:
     """The node and all nodes below it, outermost first."""
     yield expr
@@ -357,7 +366,7 @@ def shown(expr: Expr) -> str:
         case Const(value):
             return str(value)
         case Ref(name):
-            return name
+            return name.rstrip(BOUND + "·'")
         case Cell(variable, args, _, after):
             inner = f"[{', '.join(map(shown, args))}]" if args else ""
             return f"{variable}{inner}{chr(39) if after else ''}"
@@ -386,7 +395,7 @@ def shown(expr: Expr) -> str:
         case Ite(condition, then, otherwise):
             return f"({shown(then)} if {shown(condition)} else {shown(otherwise)})"
         case Quantified(universal, bound, body):
-            names = ", ".join(ref.name for ref in bound)
+            names = ", ".join(map(shown, bound))
             return f"{'for all' if universal else 'for some'} {names}: {_bracketed(body)}"
     return repr(expr)
 

@@ -186,7 +186,7 @@ class _Run:
         self.choices += (bad.ref, done)
         yield self._row(step, MINUS, (self._conjunct(step, self._fails(step, bad, done)),), self._half_done(step, done))
         self.choices = saved
-        everywhere = ex.quantified(True, (step.element,), ex.disjunction(ex.negation(step.where), step.possible))
+        everywhere = ex.bind(True, (step.element,), ex.disjunction(ex.negation(step.where), step.possible))
         self.passed += (self._conjunct(step, self.now(everywhere)),)
         self._do(tuple(_over(assign, step.element, step.where) for assign in step.body))
 
@@ -194,7 +194,7 @@ class _Run:
         at_bad = ex.substitute(ex.conjunction(step.where, ex.negation(step.possible)), {step.element.name: bad.expr})
         inside = ex.Member(done.name, step.element)
         handled = ex.disjunction(ex.negation(inside), ex.conjunction(step.where, step.possible))
-        return self.now(ex.conjunction(at_bad, ex.quantified(True, (step.element,), handled)))
+        return self.now(ex.conjunction(at_bad, ex.bind(True, (step.element,), handled)))
 
     def _half_done(self, step: ForEach, done: SetOf) -> tuple[Assign, ...]:
         inside = ex.Member(done.name, step.element)
@@ -206,6 +206,6 @@ class _Run:
 
 
 def _over(assign: Assign, element: Ref, where: Expr) -> Assign:
-    return replace(assign, bound=(*assign.bound, element), where=ex.conjunction(where, assign.where))
+    return replace(assign, where=ex.conjunction(where, assign.where)).over(Element(element))
 
 

@@ -140,8 +140,8 @@ class Quantifier:
     def __call__(self, body: Any) -> Term:
         inner = formula(body)
         if self.universal:
-            return Term(ex.quantified(True, self.bound, ex.disjunction(ex.negation(self.condition), inner)))
-        return Term(ex.quantified(False, self.bound, ex.conjunction(self.condition, inner)))
+            return Term(ex.bind(True, self.bound, ex.disjunction(ex.negation(self.condition), inner)))
+        return Term(ex.bind(False, self.bound, ex.conjunction(self.condition, inner)))
 
     def where(self, condition: Any) -> Quantifier:
         """Only the elements for which ``condition`` holds."""
