@@ -1,0 +1,127 @@
+"""Recordings in MCAP, read in event order: log time first, then position in the file.
+
+Messages stream: at any moment only those chunks are held whose times overlap. What stands in one record is
+``mcap_records``' business, the layout of the file ``mcap_survey``'s, writing ``mcap_write``'s.
+"""
+
+from __future__ import annotations
+
+import os
+from bisect import bisect_left
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from itertools import pairwise
+from pathlib import Path
+from typing import BinaryIO
+
+from mmsverify.errors import InputError
+from mmsverify.formats.mcap_records import Definitions, Message
+from mmsverify.formats.mcap_survey import Block, Survey, survey
+from mmsverify.formats.mcap_write import TraceWriter
+from mmsverify.formats.trace import PROFILE_RECORD, TraceMessage
+
+__all__ = ["McapTrace", "TraceWriter", "read_trace"]
+
+# Below this size the times that chunks claim are not trusted: everything is sorted by the messages' own
+# times.
+_SMALL = 16 << 20
+# Messages that wait because later chunks claim earlier times. More than this is a file to be sorted first.
+_LARGEST_WAIT = 1 << 30
+_COST = 250  # octets of memory for one waiting message beside its data
+
+
+@dataclass(frozen=True, slots=True)
+class McapTrace:
+    """One MCAP file. Iterating opens the file anew each time and yields its messages in event order.
+
+    Iteration raises ``InputError`` where a chunk is damaged: an audit of wrong octets would blame the robot.
+    A file that is merely cut off is read up to its last whole message (``truncated``, ``remark``).
+    """
+
+    path: str
+    metadata: Mapping[str, Mapping[str, str]]
+    truncated: bool
+    remark: str
+    _survey: Survey = field(repr=False)
+
+    @property
+    def profile(self) -> Mapping[str, str]:
+        """The pairs of the metadata record ``mmsverify.profile``; empty where the file has none."""
+        return self.metadata.get(PROFILE_RECORD, {})
+
+    def __iter__(self) -> Iterator[TraceMessage]:
+        index = 0
+        for batch in self.batches():
+            for time, _, channel, data in batch:
+                yield TraceMessage(index, time, channel, data)
+                index += 1
+
+    def batches(self) -> Iterator[list[Message]]:
+        """The same messages as lists of (log time, rank, channel, data), for readers in a hurry."""
+        with _open(self.path) as file:
+            try:
+                yield from _in_order(file, self._survey)
+            except InputError as error:
+                raise InputError(error.cause, place=self.path, cure=error.cure) from None
+
+
+def read_trace(path: str | os.PathLike[str]) -> McapTrace:
+    """Survey an MCAP file: metadata and truncation are known at once, messages come by iterating.
+
+    Raises ``InputError`` for what cannot be read at all: not MCAP, empty, a folder, no permission, lying
+    lengths.
+    """
+    place = os.fspath(path)
+    with _open(place) as file:
+        try:
+            found = survey(file)
+        except InputError as error:
+            raise InputError(error.cause, place=place, cure=error.cure) from None
+        except OSError as error:
+            raise InputError(error.strerror or str(error), place=place) from None
+    return McapTrace(place, found.metadata, bool(found.remark), found.remark, found)
+
+
+def _open(place: str) -> BinaryIO:
+    try:
+        if not Path(place).is_file() and Path(place).exists():
+            raise InputError("not a regular file", place=place)
+        return open(place, "rb")
+    except (OSError, ValueError) as error:
+        raise InputError(getattr(error, "strerror", None) or str(error), place=place) from None
+
+
+def _in_order(file: BinaryIO, found: Survey) -> Iterator[list[Message]]:
+    known = Definitions(dict(found.known.schemas), dict(found.known.channels))
+    if sum(block.unpacked for block in found.blocks) <= _SMALL:
+        yield sorted(message for block in found.blocks for message in block.load(file, known))
+        return
+    plan = sorted(found.blocks, key=lambda block: (block.start, block.number))
+    if plan != found.blocks:  # a later chunk goes first: it may lean on channels that an earlier one defines
+        for block in found.blocks:
+            block.load(file, known)
+    yield from _merged(file, plan, known)
+
+
+def _merged(file: BinaryIO, plan: list[Block], known: Definitions) -> Iterator[list[Message]]:
+    """What is earlier than the start of the next block can go; the rest waits for what that block holds."""
+    waiting: list[Message] = []
+    gone = -1
+    for block, following in pairwise([*plan, None]):
+        assert block is not None
+        waiting += block.load(file, known)
+        waiting.sort()  # ranks differ, so the comparison never reaches the channel
+        if waiting and waiting[0][0] < gone:
+            raise InputError(f"octet {block.position}: a chunk holds messages before the time that it claims")
+        at = len(waiting) if following is None else bisect_left(waiting, (following.start,))
+        if at:
+            gone = waiting[at - 1][0]
+            yield waiting[:at]
+        waiting = waiting[at:]
+        _refuse_long_wait(waiting)
+
+
+def _refuse_long_wait(waiting: list[Message]) -> None:
+    held = len(waiting) * _COST
+    if held > _LARGEST_WAIT or held + sum(len(message[3]) for message in waiting) > _LARGEST_WAIT:
+        raise InputError("too many messages are out of time order", cure="sort the recording by log time")

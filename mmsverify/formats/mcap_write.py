@@ -1,0 +1,91 @@
+"""Writing recordings as MCAP: zstd chunks, indexes and summary, by the mcap package.
+
+The same calls give the same octets: nothing of the clock, the machine or a package's version goes in.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from types import TracebackType
+from typing import BinaryIO
+
+from mcap.writer import CompressionType, Writer
+
+from mmsverify.errors import UsageError
+from mmsverify.formats.trace import PROFILE_RECORD, Channel, Schema
+
+
+class TraceWriter:
+    """Writes one recording; a context manager. Channels and schemas are registered when first used.
+
+    ``target`` is a path or a binary stream; a stream stays open. Raises ``UsageError`` where the path cannot
+    be written.
+    """
+
+    def __init__(self, target: str | os.PathLike[str] | BinaryIO, *, compress: bool = True) -> None:
+        self._owned = isinstance(target, (str, os.PathLike))
+        self._stream = _create(target) if isinstance(target, (str, os.PathLike)) else target
+        compression = CompressionType.ZSTD if compress else CompressionType.NONE
+        self._writer = Writer(self._stream, compression=compression)
+        self._writer.start(profile="", library="mmsverify")
+        self._channels: dict[Channel, int] = {}
+        self._schemas: dict[Schema, int] = {}
+        self._count = 0
+
+    @property
+    def count(self) -> int:
+        """How many messages were added."""
+        return self._count
+
+    def add(self, time: int, channel: Channel, data: bytes) -> None:
+        """Add one message; ``time`` in ns. Events are ordered by time, then by the order of these calls."""
+        number = self._channels.get(channel)
+        if number is None:
+            number = self._register(channel)
+        sequence = self._count & 0xFFFFFFFF
+        self._writer.add_message(number, log_time=time, data=data, publish_time=time, sequence=sequence)
+        self._count += 1
+
+    def add_profile(self, pairs: Mapping[str, str]) -> None:
+        """Add the metadata record that names the model and the profile's keys."""
+        self.add_metadata(PROFILE_RECORD, pairs)
+
+    def add_metadata(self, name: str, pairs: Mapping[str, str]) -> None:
+        """Add a metadata record of any name."""
+        self._writer.add_metadata(name, dict(pairs))
+
+    def close(self) -> None:
+        """Write indexes and summary; close the file if this writer opened it."""
+        self._writer.finish()  # type: ignore[no-untyped-call]
+        if self._owned:
+            self._stream.close()
+
+    def __enter__(self) -> TraceWriter:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def _register(self, channel: Channel) -> int:
+        schema = self._register_schema(channel.schema) if channel.schema else 0
+        number = self._writer.register_channel(
+            channel.topic, channel.message_encoding, schema, dict(channel.metadata)
+        )
+        self._channels[channel] = number
+        return number
+
+    def _register_schema(self, schema: Schema) -> int:
+        if schema not in self._schemas:
+            self._schemas[schema] = self._writer.register_schema(schema.name, schema.encoding, schema.data)
+        return self._schemas[schema]
+
+
+def _create(path: str | os.PathLike[str]) -> BinaryIO:
+    try:
+        return open(path, "wb")
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or str(error)
+        raise UsageError(f"cannot be written: {reason}", place=os.fspath(path)) from None
