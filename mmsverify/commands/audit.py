@@ -43,7 +43,8 @@ def audit(
     require_format(format, AUDIT_FORMATS)
     paths = trace_paths(traces)
     require_writable(output, paths)
-    _require_one(annotate, paths)
+    if annotate is not None:
+        _require_one(annotate, paths)
     from mmsverify.auditing import audit_traces
 
     with progress(quiet=quiet) as report:
@@ -55,9 +56,9 @@ def audit(
     return int(any(finding.severity == "error" for finding in result.findings))
 
 
-def _require_one(annotate: Path | None, paths: list[Path]) -> None:
+def _require_one(annotate: Path, paths: list[Path]) -> None:
     require_writable(annotate, paths)
-    if annotate is not None and len(paths) != 1:
+    if len(paths) != 1:
         raise UsageError(
             f"takes one trace, {len(paths)} given", place="--annotate", cure="annotate them one by one"
         )

@@ -98,7 +98,7 @@ def _scope(text: str | None, unbounded: bool) -> dict[str, int] | None:
         sort, equals, number = (piece.strip() for piece in part.partition("="))
         if not (sort.isidentifier() and equals and number.isascii() and number.isdigit()) or sort in sizes:
             raise UsageError(
-                f"cannot read {part!r}", place="--scope", cure="write it like PI=4,Client=2, each sort once"
+                f"cannot read {part!r}", place="--scope", cure="write it like PI=4,Client=2, each once"
             )
         sizes[sort] = int(number)
     return sizes

@@ -13,8 +13,9 @@ from mmsverify.report.wording import printable
 
 
 def require_writable(output: Path | None, inputs: Iterable[Path] = ()) -> None:
-    """Refuse, before hours of work, a file that cannot be written or that is one of the inputs."""
+    """Refuse, before the work is done, a place that cannot be written or that is one of the inputs."""
     if output is None:
+        _require_stdout()
         return
     if os.path.isdir(output):
         raise UsageError("is a folder", place=str(output), cure="name a file to write to")
@@ -22,6 +23,11 @@ def require_writable(output: Path | None, inputs: Iterable[Path] = ()) -> None:
         raise UsageError("its folder does not exist", place=str(output), cure=f"make {output.parent} first")
     if os.path.exists(output) and any(os.path.exists(entry) and output.samefile(entry) for entry in inputs):
         raise UsageError("is an input and would be overwritten", place=str(output), cure="name another file")
+
+
+def _require_stdout() -> None:
+    if sys.stdout is None:  # started with a closed stdout (``>&-``)
+        raise InputError("is closed", place="stdout", cure="name a file with -o")
 
 
 def emit(text: str, output: Path | None) -> None:
@@ -57,7 +63,7 @@ def remark(text: str, *, quiet: bool) -> None:
 @contextmanager
 def progress(*, quiet: bool) -> Iterator[Callable[[str], None] | None]:
     """A line on stderr that says what is being done; ``None`` where nobody watches."""
-    if quiet or not sys.stderr.isatty():
+    if quiet or sys.stderr is None or not sys.stderr.isatty():
         yield None
         return
     from rich.console import Console

@@ -36,9 +36,8 @@ def _model(check: ModelCheck) -> Iterator[str]:
 
 def _summary(check: ModelCheck) -> str:
     counts = Counter(verdict.result for verdict in check.verdicts)
-    return ", ".join(
-        f"{counts[result]} {result}" for result in ("proved", "violated", "unknown") if counts[result]
-    )
+    parts = [f"{counts[result]} {result}" for result in ("proved", "violated", "unknown") if counts[result]]
+    return ", ".join(parts) or "no property"
 
 
 def _row(verdict: Verdict) -> tuple[str, ...]:
