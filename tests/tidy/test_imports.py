@@ -1,0 +1,126 @@
+"""Imports go one way: vocabulary, language, engines, reports, commands. Each heavy library has one home."""
+
+from __future__ import annotations
+
+import ast
+import sys
+from pathlib import Path
+
+import pytest
+from sources import (
+    PACKAGE,
+    imported_parts,
+    imports,
+    module_name,
+    modules,
+    parsed,
+    part,
+    python_files,
+    top_level,
+)
+
+VOCABULARY = {"errors", "events", "results"}
+
+# What each part may import of the package. A part that is not listed (checking.py, auditing.py ...) belongs to
+# the composition root, which ties the engines together: it may import everything but the command line.
+ALLOWED = {
+    "errors": set[str](),
+    "events": {"errors"},
+    "results": {"errors", "events"},
+    "model": VOCABULARY,
+    "formats": {"errors", "events"},
+    "symbolic": VOCABULARY | {"model"},
+    "concrete": VOCABULARY | {"model"},
+    "graph": VOCABULARY | {"model", "concrete"},
+    "report": VOCABULARY | {"model"},
+}
+COMMAND_LINE = {"cli", "commands", "__main__"}
+
+HOMES = {
+    "z3": {"symbolic"},
+    "networkx": {"graph"},
+    "typer": {"cli", "commands"},
+    "rich": {"commands"},
+    "asn1tools": {"formats"},
+    "dpkt": {"formats"},
+    "mcap": {"formats"},
+    "lz4": {"formats"},
+    "zstandard": {"formats"},
+}
+THIRD_PARTY = {"errors": set[str](), "events": set[str](), "results": set[str](), "model": set[str](),
+               "concrete": {"numpy", "numba"}, "symbolic": {"z3"}}  # fmt: skip
+
+NETWORK = {"socket", "socketserver", "http", "urllib.request", "asyncio", "ssl", "requests"}
+
+
+def own_part(path: Path) -> str:
+    return part(module_name(path))
+
+
+def test_each_part_imports_only_what_lies_before_it() -> None:
+    offences = [
+        f"{path} imports {imported}"
+        for path in python_files(PACKAGE)
+        if own_part(path) in ALLOWED
+        for imported in sorted(imported_parts(path) - ALLOWED[own_part(path)])
+    ]
+    assert offences == []
+
+
+def test_nothing_but_the_command_line_imports_the_command_line() -> None:
+    offences = [
+        f"{path} imports {imported}"
+        for path in python_files(PACKAGE)
+        if own_part(path) not in COMMAND_LINE
+        for imported in sorted(imported_parts(path) & COMMAND_LINE)
+    ]
+    assert offences == []
+
+
+@pytest.mark.parametrize("library", HOMES)
+def test_a_heavy_library_is_imported_at_home_only(library: str) -> None:
+    users = [path for path in python_files(PACKAGE) if library in top_level(path)]
+    assert [str(path) for path in users if own_part(path) not in HOMES[library]] == []
+
+
+@pytest.mark.parametrize("folder", THIRD_PARTY)
+def test_the_core_needs_the_standard_library_only(folder: str) -> None:
+    known = {*sys.stdlib_module_names, PACKAGE, ""} | THIRD_PARTY[folder]
+    offences = [
+        f"{path} imports {name}"
+        for path in python_files(PACKAGE)
+        if own_part(path) == folder
+        for name in sorted(top_level(path) - known)
+    ]
+    assert offences == []
+
+
+def test_nothing_opens_a_network_connection() -> None:
+    users = {str(path): imports(path) & NETWORK for path in python_files(PACKAGE)}
+    assert {path: names for path, names in users.items() if names} == {}
+
+
+def test_model_files_know_the_language_only() -> None:
+    offences = [
+        f"{path} imports {name}"
+        for path in python_files("models")
+        for name in sorted(imports(path) & modules())
+        if name != PACKAGE and part(name) not in {"model", "errors", "events"}
+    ]
+    assert offences == []
+
+
+def test_imports_are_absolute() -> None:
+    relative = [
+        f"{path}:{node.lineno}"
+        for path in python_files(PACKAGE)
+        for node in ast.walk(parsed(path))
+        if isinstance(node, ast.ImportFrom) and node.level
+    ]
+    assert relative == []
+
+
+def test_every_module_is_used() -> None:
+    used = {name for path in python_files() for name in imports(path) if name != module_name(path)}
+    packages = {module.rpartition(".")[0] for module in modules()}
+    assert sorted(modules() - used - packages - {"mmsverify.__main__"}) == []
