@@ -16,7 +16,7 @@ Function = ast.FunctionDef | ast.AsyncFunctionDef
 
 @cache
 def tracked() -> tuple[Path, ...]:
-    """Every file under version control that is there, relative to the root; every file where git is no help."""
+    """Every file under version control that is there, relative to the root; all files without git."""
     listed = subprocess.run(["git", "ls-files", "-z"], cwd=ROOT, capture_output=True, text=True, check=False)
     if listed.returncode == 0:
         found = [Path(name) for name in listed.stdout.split("\0") if name]

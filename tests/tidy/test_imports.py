@@ -21,8 +21,8 @@ from sources import (
 
 VOCABULARY = {"errors", "events", "results"}
 
-# What each part may import of the package. A part that is not listed (checking.py, auditing.py ...) belongs to
-# the composition root, which ties the engines together: it may import everything but the command line.
+# What each part may import of the package. A part that is not listed (checking.py, auditing.py ...) belongs
+# to the composition root, which ties the engines together: it may import everything but the command line.
 ALLOWED = {
     "errors": set[str](),
     "events": {"errors"},
