@@ -1,0 +1,217 @@
+"""MMS PDUs: octets to `Pdu` and back. The only door to the MMS decoder; see ``asn1/`` for the types.
+
+Values are plain Python: SEQUENCE a dict (an absent OPTIONAL member is left out, a DEFAULT filled in), CHOICE
+a pair (alternative, value), SEQUENCE OF a list, INTEGER an int (`named` tells its name), BIT STRING a string
+of ``0`` and ``1`` (`bits` tells the names), OCTET STRING bytes, NULL None. Whatever the octets are, `decode`
+returns a `Pdu` or raises `DecodeError`. What a message means is not decided here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from typing import Any, NamedTuple
+
+from mmsverify.errors import DecodeError
+from mmsverify.formats import companion
+from mmsverify.formats.ber import EncodeError, Fault, header, shown
+from mmsverify.formats.codec import Misfit, Type, Walk
+from mmsverify.formats.schema import Schema
+from mmsverify.resources import asn1_dir
+
+__all__ = [
+    "EncodeError",
+    "ErrorCause",
+    "Pdu",
+    "bits",
+    "decode",
+    "encode",
+    "error_class_code",
+    "locate",
+    "named",
+    "number",
+]
+
+_WITH_SERVICE = frozenset({"confirmed-RequestPDU", "confirmed-ResponsePDU", "unconfirmed-PDU"})
+_INVOKE_FIELD = {
+    "confirmed-RequestPDU": "invokeID",
+    "confirmed-ResponsePDU": "invokeID",
+    "confirmed-ErrorPDU": "invokeID",
+    "cancel-ErrorPDU": "originalInvokeID",
+    "rejectPDU": "originalInvokeID",
+}
+_ONLY_INVOKE = frozenset({"cancel-RequestPDU", "cancel-ResponsePDU"})
+
+
+@dataclass(frozen=True, slots=True)
+class Pdu:
+    """One MMS PDU.
+
+    ``kind`` is the alternative of MMSpdu; ``invoke_id`` the invoke id it carries (of the original request for
+    reject and cancel); ``service`` the service's name, for an additional service the robot's own
+    (``select``); ``body`` its argument or result, or for PDUs without a service their content without the
+    invoke id; ``detail`` what the robot standard adds under [79], without its wrapping; ``modifiers`` the
+    list of modifiers of a request; ``remarks`` what is wrong with the octets and yet read.
+    """
+
+    kind: str
+    invoke_id: int | None = None
+    service: str | None = None
+    body: Any = None
+    detail: Any = None
+    modifiers: tuple[Any, ...] = ()
+    remarks: tuple[str, ...] = ()
+
+
+class ErrorCause(NamedTuple):
+    """Why a service failed: error class, code, and the service specific information, if any."""
+
+    class_name: str
+    code: int
+    info: tuple[str, Any] | None
+
+
+@cache
+def _schema() -> Schema:
+    return Schema.of_folder(asn1_dir())
+
+
+@cache
+def _root() -> Type:
+    return _schema().type("MMSpdu")
+
+
+def decode(octets: bytes) -> Pdu:
+    """Read one whole PDU of ISO 9506-2 with GB/T 16720.3 clause 7; anything else is a `DecodeError`."""
+    walk = Walk(bytes(octets))
+    try:
+        kind, content = _read(walk)
+        return _pdu(kind, content, tuple(walk.remarks))
+    except Fault as fault:
+        raise _decode_error(fault) from None
+    except companion.Misplaced as misplaced:
+        place = locate(octets, ("detail",)) or (0, 0)
+        raise DecodeError(str(misplaced), offset=place[0], path=f"{kind}.detail") from None
+
+
+def encode(pdu: Pdu) -> bytes:
+    """Write a PDU: shortest lengths, members at their default left out, the 2003 forms, [79] explicit.
+
+    A value that does not fit its type is an `EncodeError` that names the field.
+    """
+    try:
+        return _root().write((pdu.kind, _content(pdu)), 0)
+    except Misfit as misfit:
+        raise EncodeError(misfit.cause, place=_dotted(misfit.path)) from None
+
+
+def locate(octets: bytes, path: Sequence[str]) -> tuple[int, int] | None:
+    """Where a field's contents stand in a PDU, as (first octet, octet after the last); None if it is absent.
+
+    ``path`` names fields and alternatives from the outside in, list items as ``[0]``; names in between may be
+    left out, so ``("programInvocationName",)`` will do. Of several fields the first counts. Octets that do
+    not decode are a `DecodeError`.
+    """
+    spans: list[tuple[str, int, int]] = []
+    try:
+        _read(Walk(octets, spans))
+    except Fault as fault:
+        raise _decode_error(fault) from None
+    found = None
+    trail: list[tuple[str, int, int]] = []
+    for span in reversed(spans):
+        while trail and not (trail[-1][1] <= span[1] and span[2] <= trail[-1][2]):
+            trail.pop()
+        trail.append(span)
+        if span[0] == path[-1] and _leads(trail, path):
+            found = span[1:]
+    return found
+
+
+def named(type_name: str, value: int) -> str:
+    """The name of a number (``ProgramInvocationState``, 3: ``running``); its digits where it has none."""
+    return _schema().names(type_name).get(value, str(value))
+
+
+def number(type_name: str, name: str) -> int:
+    """The number of a name in ``type_name``; a `KeyError` where the type does not have it."""
+    return {label: value for value, label in _schema().names(type_name).items()}[name]
+
+
+def bits(type_name: str, value: str) -> frozenset[str]:
+    """The names of the bits that are set in a bit string of ``type_name``; unnamed bits by their number."""
+    names = _schema().names(type_name)
+    return frozenset(names.get(index, str(index)) for index, bit in enumerate(value) if bit == "1")
+
+
+def error_class_code(body: Mapping[str, Any]) -> ErrorCause:
+    """The cause in the body of any error PDU, of a failed event action, or in a ServiceError itself."""
+    error = body.get("serviceError", body)
+    class_name, code = error["errorClass"]
+    return ErrorCause(class_name, code, error.get("serviceSpecificInformation"))
+
+
+def _read(walk: Walk) -> tuple[str, Any]:
+    octets = walk.octets
+    if not octets:
+        raise Fault("an empty message", 0)
+    head, begin, end = header(octets, 0, len(octets))
+    reader = _root().readers.get(head)
+    if reader is None:
+        raise Fault(f"{shown(head)} is no PDU of MMS", 0)
+    if end != len(octets):
+        raise Fault(f"{len(octets) - end} octets after the end of the PDU", end)
+    pair: tuple[str, Any] = reader(walk, begin, end, 1)
+    return pair
+
+
+def _pdu(kind: str, content: Any, remarks: tuple[str, ...]) -> Pdu:
+    if kind in _WITH_SERVICE:
+        service, body = companion.plain_service(content["service"])
+        return Pdu(
+            kind,
+            content.get("invokeID"),
+            service,
+            companion.plain_body(service, body),
+            companion.plain_detail(service, content.get("detail")),
+            tuple(content.get("listOfModifier", ())),
+            remarks,
+        )
+    if kind in _ONLY_INVOKE:
+        return Pdu(kind, content, remarks=remarks)
+    field = _INVOKE_FIELD.get(kind)
+    invoke_id = content.pop(field, None) if field else None
+    return Pdu(kind, invoke_id, body=content, remarks=remarks)
+
+
+def _content(pdu: Pdu) -> Any:
+    if pdu.kind in _ONLY_INVOKE:
+        return pdu.invoke_id
+    field = _INVOKE_FIELD.get(pdu.kind)
+    invoke = {field: pdu.invoke_id} if field and pdu.invoke_id is not None else {}
+    if pdu.kind not in _WITH_SERVICE:
+        return {**invoke, **pdu.body} if isinstance(pdu.body, Mapping) else pdu.body
+    if pdu.service is None:
+        raise Misfit("a PDU of this kind needs a service")
+    content = {
+        **invoke,
+        "listOfModifier": list(pdu.modifiers) or None,
+        "detail": companion.wrapped_detail(pdu.service, pdu.detail),
+    }
+    body = companion.wrapped_body(pdu.service, pdu.body)
+    service = companion.wrapped_service((pdu.service, body))
+    return {"service": service, **{name: value for name, value in content.items() if value is not None}}
+
+
+def _decode_error(fault: Fault) -> DecodeError:
+    return DecodeError(fault.cause, offset=fault.offset, path=_dotted(fault.path))
+
+
+def _dotted(path: Sequence[str]) -> str:
+    return ".".join(reversed(path)).replace(".[", "[")
+
+
+def _leads(trail: Sequence[tuple[str, int, int]], path: Sequence[str]) -> bool:
+    names = iter(span[0] for span in trail)
+    return all(name in names for name in path)
