@@ -19,7 +19,7 @@ from sources import (
     top_level,
 )
 
-VOCABULARY = {"errors", "events", "results"}
+VOCABULARY = {"errors", "events", "results", "resources"}
 
 # What each part may import of the package. A part that is not listed (checking.py, auditing.py ...) belongs
 # to the composition root, which ties the engines together: it may import everything but the command line.
@@ -27,8 +27,9 @@ ALLOWED = {
     "errors": set[str](),
     "events": {"errors"},
     "results": {"errors", "events"},
+    "resources": {"errors"},
     "model": VOCABULARY,
-    "formats": {"errors", "events"},
+    "formats": {"errors", "events", "resources"},
     "symbolic": VOCABULARY | {"model"},
     "concrete": VOCABULARY | {"model"},
     "graph": VOCABULARY | {"model", "concrete"},
