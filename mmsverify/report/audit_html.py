@@ -28,6 +28,7 @@ article { border: 1px solid var(--line); border-left: .4rem solid; border-radius
 article.error { border-left-color: var(--error); } article.warning { border-left-color: var(--warning); }
 article.note { border-left-color: var(--note); }
 article p { margin: .3rem 0; } .message { font-weight: 600; overflow-wrap: anywhere; }
+.place { margin-left: .6rem; }
 .place, code, dd { font-family: ui-monospace, monospace; font-size: .9em; overflow-wrap: anywhere; }
 .badge { color: #fff; border-radius: .25rem; padding: 0 .45rem; font: bold .8em system-ui, sans-serif; }
 .error .badge { background: var(--error); } .warning .badge { background: var(--warning); }
