@@ -16,7 +16,7 @@ from urllib.parse import quote
 from mmsverify import __version__
 from mmsverify.report.order import by_input, ordered
 from mmsverify.report.wording import instant, plain, printable
-from mmsverify.results import Audit, Finding
+from mmsverify.results import Audit, AuditedInput, Finding
 
 VERSION = "2.1.0"
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -29,17 +29,29 @@ def render(audit: Audit) -> str:
 
 def _run(audit: Audit) -> dict[str, Any]:
     rules = _rules(audit.findings)
-    paths = [path for path, _, _ in by_input(audit)]
+    inputs = [(path, entry) for path, entry, _ in by_input(audit)]
     rule_at = {rule["id"]: number for number, rule in enumerate(rules)}
-    path_at = {path: number for number, path in enumerate(paths)}
+    path_at = {path: number for number, (path, _) in enumerate(inputs)}
     return {
         "tool": {"driver": {"name": "mmsverify", "version": __version__, "rules": rules}},
-        "artifacts": [{"location": {"uri": _uri(path)}} for path in paths],
+        "artifacts": [_artifact(path, entry) for path, entry in inputs],
         "results": [
             _result(finding, rule_at[finding.rule], path_at[finding.path])
             for finding in ordered(audit.findings)
         ],
     }
+
+
+def _artifact(path: str, entry: AuditedInput | None) -> dict[str, Any]:
+    artifact: dict[str, Any] = {"location": {"uri": _uri(path)}}
+    if entry is not None:
+        artifact["properties"] = {
+            "messages": entry.messages,
+            "events": entry.events,
+            "skipped": entry.skipped,
+            "truncated": entry.truncated,
+        }
+    return artifact
 
 
 def _rules(findings: Iterable[Finding]) -> list[dict[str, Any]]:

@@ -75,7 +75,8 @@ def test_a_whole_file_finding_has_no_logical_location() -> None:
 def test_a_clean_audit_is_a_run_without_results() -> None:
     told = run(CLEAN)
     assert told["results"] == []
-    assert told["artifacts"] == [{"location": {"uri": "a.mcap"}}]
+    amounts = {"messages": 1204, "events": 1200, "skipped": 4, "truncated": False}
+    assert told["artifacts"] == [{"location": {"uri": "a.mcap"}, "properties": amounts}]
 
 
 @pytest.mark.parametrize(
