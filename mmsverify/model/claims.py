@@ -24,8 +24,8 @@ class ClaimSource(Declared):
         self.formula = formula(condition)
         self.says = says
         self.repairs = repairs
-        if self.kind != "step" and ex.reads_next(self.formula):
-            raise mistake("'.next' outside a Step claim", "state it as Step(clause, ...)", self.place)
+        if self.kind == "always" and ex.reads_next(self.formula):
+            raise mistake("'.next' in an Always claim", "state it as Step(clause, ...)", self.place)
 
     def claim(self) -> Claim:
         """The claim as plain data."""
@@ -39,7 +39,7 @@ class Always(ClaimSource):
 
 
 class Sometimes(ClaimSource):
-    """Holds in some reachable state; beside every ``Always``, so that no proof is vacuous."""
+    """Holds in some reachable state, or (where it speaks of ``.next``) of some step; beside every ``Always``, so that no proof is vacuous."""
 
     kind = "sometimes"
 

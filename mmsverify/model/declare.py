@@ -82,8 +82,9 @@ class Assign:
     place: str = field(default="", compare=False)
 
     def when(self, condition: Any) -> Assign:
-        """The same update, only where ``condition`` holds."""
-        where = ex.conjunction(self.where, formula(condition))
+        """The same update, only where ``condition`` holds; it may speak of the elements that ``over`` has bound."""
+        marked = {ref.name.removesuffix("·"): ref for ref in self.bound}
+        where = ex.conjunction(self.where, ex.substitute(formula(condition), marked))
         return Assign(self.variable, self.args, self.value, self.bound, where, self.place)
 
     def over(self, *elements: Element) -> Assign:

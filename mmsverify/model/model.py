@@ -25,13 +25,14 @@ from mmsverify.model.sorts import ElementSort
 class _Body(dict[str, Any]):
     """The namespace of a class body: names declarations at once, refuses a second one, sees the names of the bases."""
 
-    def __init__(self, title: str, inherited: Mapping[str, Declared]) -> None:
+    def __init__(self, title: str, inherited: Mapping[str, Declared], words: Mapping[str, Any]) -> None:
         super().__init__()
         self.title = title
         self.inherited = inherited
+        self.words = words
 
     def __missing__(self, name: str) -> Any:
-        return self.inherited[name]
+        return self.inherited[name] if name in self.inherited else self.words[name]
 
     def __setitem__(self, name: str, value: Any) -> None:
         if isinstance(value, Declared):
@@ -55,16 +56,20 @@ class _Assembler(type):
     """Collects the declarations of a class body and of its bases."""
 
     declared: Mapping[str, Declared]
+    words: Mapping[str, Any]
+    options: Mapping[str, Any]
 
     @classmethod
     def __prepare__(mcs, title: str, bases: tuple[type, ...], /, **_options: Any) -> _Body:
-        return _Body(title, _inherited(title, bases))
+        words = {name: value for base in reversed(bases) for name, value in getattr(base, "words", {}).items()}
+        return _Body(title, _inherited(title, bases), words)
 
     def __new__(mcs, title: str, bases: tuple[type, ...], body: _Body, **options: Any) -> _Assembler:
         made = super().__new__(mcs, title, bases, dict(body))
         own = {name: value for name, value in body.items() if isinstance(value, Declared)}
-        made.declared = {**_inherited(title, bases), **own}
-        made.options = options  # type: ignore[attr-defined]
+        made.declared = {**body.inherited, **own}
+        made.words = {**body.words, **{n: v for n, v in body.items() if not n.startswith("__")}}
+        made.options = options
         return made
 
     def __init__(cls, title: str, bases: tuple[type, ...], body: _Body, **_options: Any) -> None:

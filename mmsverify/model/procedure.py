@@ -7,7 +7,7 @@ steps before it: whether a refusal can leave a half-done effect is a question fo
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from mmsverify.model import expr as ex
 from mmsverify.model.declare import Assign, Declared, On
@@ -88,7 +88,8 @@ class Observation(RowSource):
 class Procedure(RowSource):
     """The ordered steps of a service procedure; ``clause`` is the prefix that the printed labels extend.
 
-    ``always`` are updates of every outcome (leaving the transient state, forgetting the request).
+    ``always`` are updates of every outcome (forgetting the request), ``on_refusal`` those of every result(-) (going
+    back from a transient state). Both read the state that the steps have left.
     """
 
     def __init__(
@@ -98,6 +99,7 @@ class Procedure(RowSource):
         on: On,
         steps: Sequence[Step],
         always: Sequence[Assign] = (),
+        on_refusal: Sequence[Assign] = (),
         repairs: Repair | None = None,
     ) -> None:
         self.place = caller()
@@ -105,7 +107,8 @@ class Procedure(RowSource):
             raise mistake("a row without a clause", "give the clause of the procedure", self.place)
         if not any(isinstance(step, Accept) for step in steps):
             raise mistake("a procedure that never accepts", "end the steps with accept('m')", self.place)
-        self.clause, self.on, self.steps, self.always, self.repairs = clause, on, tuple(steps), tuple(always), repairs
+        self.clause, self.on, self.steps, self.repairs = clause, on, tuple(steps), repairs
+        self.always, self.on_refusal = tuple(always), tuple(on_refusal)
 
     def rows(self) -> Iterator[Row]:
         run = _Run(self)
@@ -122,6 +125,7 @@ class _Run:
     made: tuple[Assign, ...] = ()
     choices: tuple[Ref | SetOf, ...] = ()
     clause: Clause = Clause(())
+    labels: dict[str, int] = field(default_factory=dict)
 
     def take(self, step: Step) -> Iterator[Row]:
         self.clause = self.clause + cited(self.source.clause, step)
@@ -148,12 +152,17 @@ class _Run:
         return Conjunct(condition, own, rule, step.says, level)
 
     def _row(self, step: Step, answer: str, more: tuple[Conjunct, ...] = (), then: tuple[Assign, ...] = ()) -> Row:
-        made = self.made + self._over_start(then) + self._over_start(self.source.always)
+        last = (*then, *(self.source.on_refusal if answer == MINUS else ()), *self.source.always)
         own = cited(self.source.clause, step) if answer == MINUS else self.clause
         return Row(
-            self.source.name, self.source.on, self.passed + more, made, answer, own,
-            choices=self.choices, step=step.label, place=step.place,
+            self.source.name, self.source.on, self.passed + more, self.made + self._over_start(last), answer, own,
+            choices=self.choices, step=self._label(step), place=step.place,
         )  # fmt: skip
+
+    def _label(self, step: Step) -> str:
+        """The printed label, numbered where several refusals share it."""
+        seen = self.labels[step.label] = self.labels.get(step.label, 0) + 1
+        return step.label if seen == 1 else f"{step.label}#{seen}"
 
     def _over_start(self, assigns: Sequence[Assign]) -> tuple[Assign, ...]:
         return tuple(

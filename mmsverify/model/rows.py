@@ -6,7 +6,7 @@ replay can name the one that refused, with its clause.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Literal
@@ -184,3 +184,25 @@ def matched(assign: Assign, args: tuple[Expr, ...]) -> tuple[Expr, Expr]:
     free = tuple(ref for name, ref in bound.items() if name not in solved)
     condition = ex.substitute(ex.conjunction(*tests, assign.where), solved)
     return ex.quantified(False, free, condition), ex.substitute(assign.value, solved)
+
+
+def step_formula(claim: Expr, row: Row) -> Expr:
+    """A two-state claim, for the steps of one row, as a formula over the state before it.
+
+    Facts about the row are decided; a parameter that the row does not have is FALSE.
+    """
+
+    def change(cell: Cell) -> Expr:
+        plain = Cell(cell.variable, cell.args, cell.of)
+        return after(plain, row.assigns) if cell.next else plain
+
+    facts = {"answer": row.answer, "service": row.on.service, "phase": row.on.phase, "name": row.name}
+    known = {parameter.name for parameter in row.parameters}
+    absent = {name: ex.FALSE for name, ref in ex.refs_of(claim).items() if name not in known and not name.endswith(ex.BOUND)}
+    return ex.map_cells(ex.substitute(_resolved(claim, facts), absent), change)
+
+
+def _resolved(expr: Expr, facts: Mapping[str, str]) -> Expr:
+    if isinstance(expr, ex.RowFact):
+        return ex.Const(facts[expr.fact] in expr.values)
+    return ex.rebuilt(expr, lambda part: _resolved(part, facts))

@@ -134,8 +134,8 @@ def cited(clause: str, step: StepSource) -> Clause:
 
     A label that starts with a capital is a citation of its own (a reading or a base assumption), not a printed step.
     """
-    own = () if step.label[:1].isupper() else (f"{clause}-{step.label}",)
-    return Clause.of(*own, *step.cites) if own or step.cites else Clause.of(step.label)
+    own = step.label if step.label[:1].isupper() else f"{clause}-{step.label}"
+    return Clause.of(own, *step.cites)
 
 
 def check_distinct(assigns: Sequence[Assign], place: str) -> None:

@@ -13,7 +13,9 @@ from typing import Any, ClassVar, NoReturn
 from mmsverify.model import expr as ex
 from mmsverify.model.expr import Cell, Const, Expr, Member, Present, Ref
 from mmsverify.model.place import mistake
-from mmsverify.model.sorts import BOOL, ElementSort, EnumSort, IntSort, Sort, same_kind
+from mmsverify.model.sorts import (
+    BOOL, ElementSort, EnumSort, Enumeration, IntSort, Sort, enumeration, integer, same_kind,
+)  # fmt: skip
 
 
 class Term:
@@ -166,8 +168,19 @@ def _bound(elements: tuple[Element, ...]) -> tuple[Ref, ...]:
 
 def if_(condition: Any, then: Any, otherwise: Any) -> Term:
     """The value ``then`` where ``condition`` holds, else ``otherwise``."""
-    left, right = _pair(then, otherwise) if isinstance(then, Term) else tuple(reversed(_pair(otherwise, then)))
-    return Term(ex.choice(formula(condition), left, right))
+    sort = next((v.sort for v in (then, otherwise) if isinstance(v, Term)), None) or sort_of(then)
+    return Term(ex.choice(formula(condition), value_of(then, sort), value_of(otherwise, sort)))
+
+
+def sort_of(value: Any) -> Sort:
+    """The sort of a literal."""
+    if isinstance(value, bool):
+        return BOOL
+    if isinstance(value, Enumeration):
+        return enumeration(type(value))
+    if isinstance(value, int):
+        return integer()
+    raise mistake(f"{value!r} is not a value of the language", "give a term, a truth value, an integer or a member of an Enumeration")
 
 
 def all_of(*conditions: Any) -> Term:

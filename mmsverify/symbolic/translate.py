@@ -18,7 +18,7 @@ from mmsverify.model.expr import (
     And, Cell, Const, Eq, Expr, Ite, Less, Member, Not, Or, Plus, Present, Quantified, Ref,
 )  # fmt: skip
 from mmsverify.model.model import ModelData
-from mmsverify.model.rows import Claim, Row, Signature, after
+from mmsverify.model.rows import Claim, Row, Signature, after, step_formula
 from mmsverify.model.sorts import BoolSort, ElementSort, EnumSort, Enumeration, IntSort, Sort
 from mmsverify.model.terms import SetOf
 
@@ -138,27 +138,6 @@ class Translator:
         value = self.function(signature.name, state)(*names)
         limits = ([] if sort.low is None else [value >= sort.low]) + ([] if sort.high is None else [value <= sort.high])
         return [z3.ForAll(names, limit) if names else limit for limit in limits]
-
-
-def step_formula(claim: Expr, row: Row) -> Expr:
-    """A two-state claim, for one row, as a formula over the state before it."""
-
-    def change(cell: Cell) -> Expr:
-        plain = Cell(cell.variable, cell.args, cell.of)
-        return after(plain, row.assigns) if cell.next else plain
-
-    return _resolved(ex.map_cells(claim, change), row_facts(row))
-
-
-def row_facts(row: Row) -> Mapping[str, str]:
-    """The facts of a row that two-state claims may ask for."""
-    return {"answer": row.answer, "service": row.on.service, "phase": row.on.phase, "name": row.name}
-
-
-def _resolved(expr: Expr, facts: Mapping[str, str]) -> Expr:
-    if isinstance(expr, ex.RowFact):
-        return ex.Const(facts[expr.fact] in expr.values)
-    return ex.rebuilt(expr, lambda part: _resolved(part, facts))
 
 
 def obligation(claim: Claim, row: Row) -> Expr:

@@ -1,0 +1,34 @@
+"""The MMS companion standard for robots, GB/T 16720.3-1996 (eqv ISO/IEC 9506-3:1991), as an executable model.
+
+``as-written`` is the text step by step; ``repaired`` differs from it in named rows only, each with the clause that it mends
+and the reason. One file per clause group; the text and its repair stand together.
+"""
+
+from .associations import Associations, AssociationsRepaired
+from .execution import Execution
+from .execution_repaired import ExecutionRepaired
+from .figure8 import Figure8, Figure8Repaired
+from .observations import Observations
+from .programs import Programs, ProgramsRepaired
+from .properties import Properties
+from .properties_repaired import PropertiesRepaired
+from .scenario import scenario
+from .selection import Selection, SelectionRepaired
+from .vmd import Vmd, VmdRepaired
+
+STANDARD = "GB/T 16720.3-1996"
+VIEWS = {"robot state": "robot_state", "program invocation": "state"}
+
+
+class AsWritten(
+    Programs, Selection, Execution, Vmd, Associations, Observations, Properties, Figure8,
+    name="mms-robot", variant="as-written", standard=STANDARD, views=VIEWS, scenario=scenario,
+):  # fmt: skip
+    """The text as it stands, faults included."""
+
+
+class Repaired(
+    ProgramsRepaired, SelectionRepaired, ExecutionRepaired, VmdRepaired, AssociationsRepaired, Observations, PropertiesRepaired, Figure8Repaired,
+    name="mms-robot", variant="repaired", standard=STANDARD, views=VIEWS, scenario=scenario,
+):  # fmt: skip
+    """The reading that keeps its own rules."""

@@ -1,0 +1,147 @@
+"""Starting, stopping, resuming and resetting, repaired: all checks first, motion enabled told, MOTION-PAUSED can be left (7.3.3.3 to 7.3.3.6)."""
+
+from .admission import EVERYTHING, admission
+from .execution import Execution
+from .vocabulary import Mode, State, VocabularyRepaired
+
+from mmsverify.model import Procedure, Transition, accept, do, for_all, for_some, if_, internal, refuse, repaired, response
+
+
+class ExecutionRepaired(Execution, VocabularyRepaired):
+    """The repaired reading."""
+
+    paused = ~motion() & ~intervention()  # ROBOT-MOTION-PAUSED, of a selected program invocation that has been started (RP-12)
+    drives_arm = for_some(c)(controls[pi, c] & arm[c])
+    all_can_run = for_all(c)(controls[pi, c] >> can_run)
+    calibration_runs = for_some(p)(calibrates[p] & started[p])
+    task_runs = for_some(p)(selected[p] & started[p])
+    led_by_running = for_some(a)(controller[pi, a] & selected[a] & (state[a] == State.RUNNING))
+    in_intervention = refuse("R-5.3.1.3.3.13-2", "RP-09", when=intervention(), rule="execution.intervention",
+                             says="the robot is in MANUAL-INTERVENTION-REQUIRED")  # fmt: skip
+    bad_count = limit.present & (limit != Mode.FREE_RUN) & (count <= 0)
+    no_steps = limit.present & (limit == Mode.STEP_LIMITED) & ~step_limited()
+    run_all = [
+        state[c].becomes(State.RUNNING).over(c).when(is_controlling & controls[pi, c]),
+        state[pi].becomes(State.RUNNING),
+        motion().becomes(True).when(moves_arm | (is_controlling & drives_arm)),
+    ]  # fmt: skip
+    # Entered by this request's indication, or (at the panel) found in the state from which the service acts.
+    may_start = if_(panel, state[pi] == State.IDLE, entered[request, pi] & (state[pi] == State.STARTING))
+    may_stop = if_(panel, state[pi] == State.RUNNING, entered[request, pi] & (state[pi] == State.STOPPING))
+    may_resume = if_(panel, state[pi] == State.STOPPED, entered[request, pi] & (state[pi] == State.RESUMING))
+    may_reset = if_(panel, state[pi] == State.STOPPED, entered[request, pi] & (state[pi] == State.RESETTING))
+    acts_while_running = selected[pi] & paused & (state[pi] == State.RUNNING)
+
+    start = Procedure(
+        "R-7.3.3.3.3",
+        on=response("start", request, user, panel, pi, location_given, limit, count),
+        always=[*forget],
+        on_refusal=[state[pi].becomes(State.IDLE).when(~panel & entered[request, pi] & (state[pi] == State.STARTING))],
+        steps=[
+            *admission("start", panel, local_control(), logical(), EVERYTHING),
+            in_intervention,
+            refuse("a", "B-START", "RP-14", unless=exists[pi], rule="start.unknown", says="{pi} does not exist"),
+            refuse("a", "B-START", unless=may_start, rule="start.not-idle", says="{pi} is not IDLE"),
+            refuse("b", unless=holder[user] | panel, rule="start.without-control", says="{user} does not hold R_CTRL"),
+            refuse("c1", "R-7.3.3.3.1-1", when=~is_controlling & (location_given | limit.present), rule="start.parameters",
+                   says="{pi} is not CONTROLLING and takes neither start location nor running mode"),
+            refuse("R-6.3.5.9-1", "RP-19", when=moves_arm & ~led_by_running, rule="start.arm-alone", level="warning",
+                   says="{pi} moves the arm, and no selected and RUNNING program invocation controls it"),
+            refuse("R-6.3.6-3", "RP-17", when=calibrates[pi] & task_runs, rule="start.calibration-beside-task", level="warning",
+                   says="the selected program invocation has been started"),
+            refuse("d0", "R-5.3.1.3.3.7-2", when=is_controlling & ~selected[pi], rule="start.not-selected",
+                   says="{pi} is not the selected program invocation"),
+            refuse("d4", "R-7.3.3.3.3-d2", "R-7.3.3.3.3-d3", when=is_controlling & ~all_can_run, rule="start.controlled-cannot-run",
+                   says="a program invocation that {pi} controls cannot enter RUNNING"),
+            refuse("R-6.3.6-3", "RP-17", when=is_controlling & calibration_runs, rule="start.task-beside-calibration", level="warning",
+                   says="the calibration program has been started"),
+            refuse("R-7.3.3.3.1.4-2", "R-7.3.3.3.1.5-2", "RP-14", when=bad_count, rule="start.count", says="the count {count} is not positive"),
+            refuse("R-7.3.3.3.1.5-3", when=no_steps, rule="start.steps-unsupported", says="STEP-LIMITED is not supported"),
+            do("e1", *set_mode, cites=["R-7.3.3.3.3-e2", "R-7.3.3.3.3-e3"]),
+            do("g", *run_all, cites=["R-7.3.3.3.3-f", "R-6.3.5.6-1", "RP-02"]),
+            accept("g"),
+        ],
+        repairs=repaired("RP-02", "R-7.3.3.3.3-c2", "R-7.3.3.3.3-f",
+                         because="c2) ends the procedure before f) for every program invocation that f) speaks of: motion would never be enabled"),
+    )  # fmt: skip
+
+    stop = Procedure(
+        "R-7.3.3.4.1",
+        on=response("stop", request, user, panel, pi),
+        always=[*forget],
+        on_refusal=[state[pi].becomes(State.RUNNING).when(~panel & entered[request, pi] & (state[pi] == State.STOPPING))],
+        steps=[
+            *admission("stop", panel, local_control(), logical(), EVERYTHING),
+            refuse("a", "B-STOP", "RP-14", unless=exists[pi], rule="stop.unknown", says="{pi} does not exist"),
+            refuse("a", "B-STOP", unless=may_stop, rule="stop.not-running", says="{pi} is not RUNNING"),
+            refuse("b", unless=holder[user] | panel, rule="stop.without-control", says="{user} does not hold R_CTRL"),
+            do("c", motion().becomes(False).when(moves_arm), cites=["R-6.3.5.9-1"]),
+            do("d", state[pi].becomes(State.STOPPED)),
+            accept("d"),
+        ],
+        repairs=repaired("RP-12", "R-6.3.5.9-1", because="the robot state follows from motion enabled; Stop need not set it"),
+    )  # fmt: skip
+
+    arm_comes_to_rest = Transition(
+        "R-7.3.3.4.1-1", "R-5.3.1.3.3.9-1", "RP-07",
+        on=internal("arm_comes_to_rest", pi),
+        when=[selected[pi], state[pi].isin([State.STOPPED, State.RESUMING, State.RESETTING])],
+        then=[motion().becomes(False)],
+        repairs=repaired("RP-07", "R-7.3.3.4.1-1", because="after Stop of the task program alone, motion ceases some time later"),
+    )  # fmt: skip
+
+    resume = Procedure(
+        "R-7.3.3.5.3",
+        on=response("resume", request, user, panel, pi, type_given, limit, count),
+        always=[*forget],
+        on_refusal=[state[pi].becomes(State.STOPPED).when(~panel & entered[request, pi] & (state[pi] == State.RESUMING))],
+        steps=[
+            *admission("resume", panel, local_control(), logical(), EVERYTHING),
+            in_intervention,
+            refuse("a", "B-RESUME", "RP-14", unless=exists[pi], rule="resume.unknown", says="{pi} does not exist"),
+            refuse("a", "B-RESUME", unless=may_resume | acts_while_running, rule="resume.not-stopped", says="{pi} is not STOPPED"),
+            refuse("b", unless=holder[user] | panel, rule="resume.without-control", says="{user} does not hold R_CTRL"),
+            refuse("c1", when=~is_controlling & type_given, rule="resume.parameters", says="{pi} is not CONTROLLING and takes no resume type"),
+            refuse("R-6.3.5.10-1", "RP-19", when=moves_arm & ~led_by_running, rule="resume.arm-alone", level="warning",
+                   says="{pi} moves the arm, and no selected and RUNNING program invocation controls it"),
+            refuse("R-6.3.6-3", "RP-17", when=calibrates[pi] & task_runs, rule="resume.calibration-beside-task", level="warning",
+                   says="the selected program invocation has been started"),
+            refuse("R-6.3.5.10-1", "RP-19", when=is_controlling & ~selected[pi], rule="resume.not-selected", level="warning",
+                   says="{pi} is not the selected program invocation"),
+            refuse("d4", "R-7.3.3.5.3-d2", "R-7.3.3.5.3-d3", when=is_controlling & ~all_can_run, rule="resume.controlled-cannot-run",
+                   says="a program invocation that {pi} controls cannot enter RUNNING"),
+            refuse("R-6.3.6-3", "RP-17", when=is_controlling & calibration_runs, rule="resume.task-beside-calibration", level="warning",
+                   says="the calibration program has been started"),
+            refuse("e1", when=is_controlling & ~limit.present & nothing_left, rule="resume.nothing-left", says="no cycle or step of {pi} remains"),
+            refuse("R-7.3.3.5.1.5-2", "R-7.3.3.5.1.6-2", "RP-14", when=bad_count, rule="resume.count", says="the count {count} is not positive"),
+            refuse("R-7.3.3.5.1.6-1", when=no_steps, rule="resume.steps-unsupported", says="STEP-LIMITED is not supported"),
+            do("f1", *set_mode, cites=["R-7.3.3.5.3-f2", "R-7.3.3.5.3-f3"]),
+            do("g", *run_all, cites=["R-7.3.3.5.3-e2", "R-6.3.5.10-1", "RP-02", "RP-06"]),
+            accept("g"),
+        ],
+        repairs=repaired("RP-06", "R-6.3.5.10-1", "R-7.3.3.5.3-a",
+                         because="paused by Stop of the arm alone, the selected program invocation is RUNNING, and the text lets no service continue"),
+    )  # fmt: skip
+
+    reset = Procedure(
+        "R-7.3.3.6.1",
+        on=response("reset", request, user, panel, pi),
+        always=[*forget],
+        on_refusal=[state[pi].becomes(State.STOPPED).when(~panel & entered[request, pi] & (state[pi] == State.RESETTING))],
+        steps=[
+            *admission("reset", panel, local_control(), logical(), EVERYTHING),
+            refuse("a", "B-RESET", "RP-14", unless=exists[pi], rule="reset.unknown", says="{pi} does not exist"),
+            refuse("a", "B-RESET", unless=may_reset | acts_while_running, rule="reset.not-stopped", says="{pi} is not STOPPED"),
+            refuse("b", unless=holder[user] | panel, rule="reset.without-control", says="{user} does not hold R_CTRL"),
+            refuse("R-6.3.5.8-1", "RP-07", when=selected[pi] & motion(), rule="reset.in-motion", level="warning",
+                   says="{pi} is selected and motion is enabled"),
+            do("R-6.3.5.8-1", state[c].becomes(State.IDLE).over(c).when(selected[pi] & controls[pi, c] & started[c]), cites=["RP-06"]),
+            do("R-6.1.3.2.6-2", controller[c, a].becomes(False).over(c, a).when(~reusable[pi] & selected[pi] & (a == pi)),
+               controls[a, c].becomes(False).over(a, c).when(~reusable[pi] & selected[pi] & (a == pi)),
+               selected[a].becomes(False).over(a).when(~reusable[pi] & (a == pi)), cites=["RP-04"]),
+            do("c", state[pi].becomes(if_(reusable[pi], State.IDLE, State.UNRUNNABLE)), motion().becomes(False).when(moves_arm)),
+            accept("c"),
+        ],
+        repairs=repaired("RP-07", "R-6.3.5.8-1", "R-7.3.3.6.1-c",
+                         because="figure 8 leads from MOTION-PAUSED to READY only, and the arm's program must return with the task program"),
+    )  # fmt: skip

@@ -1,0 +1,124 @@
+"""What Status, UnsolicitedStatus, GetProgramInvocationAttributes and variables show of the state (6.3.8, 7.3.2, 7.3.3.9, 8.3)."""
+
+from .vocabulary import Control, Logical, Mode, Physical, RobotState, State, Vocabulary
+
+from mmsverify.model import BOOL, Observation, for_all, integer, needs, optional, parameter, shown
+
+
+class Observations(Vocabulary):
+    """As written; the repaired reading changes none of it."""
+
+    shown_robot = optional("shown_robot", RobotState)
+    shown_logical = parameter("shown_logical", Logical)
+    shown_physical = parameter("shown_physical", Physical)
+    shown_local = optional("shown_local", BOOL)
+    selected_is = PI.maybe("selected_is")
+    detailed = parameter("detailed", BOOL)
+
+    # What contradicts itself within one message comes first, then what contradicts the state.
+    status = Observation(
+        "R-7.3.2.1-3",
+        on=shown("status", detailed, shown_robot, selected_is, shown_logical, shown_physical, shown_local),
+        shows=[
+            needs("R-T1-1", "R-6.1.3.2.5-1", rule="status.local-control",
+                  that=(shown_local.present & shown_local) >> (shown_logical != Logical.STATE_CHANGES_ALLOWED),
+                  says="local control is TRUE beside logical status STATE-CHANGES-ALLOWED"),
+            needs("R-6.3.4.7-2", "R-T1-2", rule="status.intervention-logical",
+                  that=(detailed & (shown_robot == RobotState.INTERVENTION)) >> (shown_logical != Logical.STATE_CHANGES_ALLOWED),
+                  says="MANUAL-INTERVENTION-REQUIRED beside logical status STATE-CHANGES-ALLOWED"),
+            needs("R-6.3.4.7-3", rule="status.intervention-physical",
+                  that=(detailed & (shown_robot == RobotState.INTERVENTION)) >> (shown_physical == Physical.NEEDS_COMMISSIONING),
+                  says="MANUAL-INTERVENTION-REQUIRED beside a physical status other than NEEDS-COMMISSIONING"),
+            needs("R-6.3.4.2-2", "R-7.3.2.1.1.4-1", rule="status.idle-selected",
+                  that=~(detailed & (shown_robot == RobotState.IDLE) & selected_is.present),
+                  says="ROBOT-IDLE beside a selected program invocation"),
+            needs("R-6.3.4.3-1", "R-7.3.2.1.1.4-1", rule="status.loaded-selected",
+                  that=~(detailed & (shown_robot == RobotState.LOADED) & selected_is.present),
+                  says="ROBOT-LOADED beside a selected program invocation"),
+            needs("R-6.3.4.4-1", "R-7.3.2.1.1.4-1", rule="status.ready-unselected",
+                  that=~(detailed & (shown_robot == RobotState.READY) & ~selected_is.present),
+                  says="ROBOT-READY without a selected program invocation"),
+            needs("R-6.3.4.5-2", "R-7.3.2.1.1.4-1", rule="status.executing-unselected",
+                  that=~(detailed & (shown_robot == RobotState.EXECUTING) & ~selected_is.present),
+                  says="ROBOT-EXECUTING without a selected program invocation"),
+            needs("R-6.3.4.6-2", "R-7.3.2.1.1.4-1", rule="status.paused-unselected",
+                  that=~(detailed & (shown_robot == RobotState.MOTION_PAUSED) & ~selected_is.present),
+                  says="ROBOT-MOTION-PAUSED without a selected program invocation"),
+            needs("R-6.1.3.1-5", "R-6.1.3.2.5-1", rule="status.local-control-value",
+                  that=shown_local.present >> (local_control() == shown_local), says="local control is {local_control}"),
+            needs("R-6.1.3.2.6-2", "R-7.3.2.1.1.4-1", "R-6.3.5.4-2", rule="status.selected-kind",
+                  that=(detailed & selected_is.present) >> (exists[selected_is] & (control[selected_is] == Control.CONTROLLING)),
+                  says="the selected program invocation {selected_is} is not an existing CONTROLLING one"),
+            needs("R-7.3.2.1.1.4-1", "R-6.1.3.2.6-1", "R-6.1.3.2.6-3", rule="status.selected",
+                  that=detailed >> for_all(a)(selected[a] == (selected_is.present & (a == selected_is))),
+                  says="another program invocation is selected, or none"),
+            needs("R-7.3.2.1.1.1-1", "R-6.1.3.1-2", rule="status.robot-state",
+                  that=detailed >> (robot_state() == shown_robot), says="the robot cannot be in {shown_robot}"),
+            needs("R-7.3.2.1-1", "B-STATUS", rule="status.logical", that=logical() == shown_logical,
+                  says="the logical status cannot be {shown_logical}"),
+            needs("R-7.3.2.1-1", "B-STATUS", rule="status.physical", that=physical() == shown_physical,
+                  says="the physical status cannot be {shown_physical}"),
+        ],
+    )  # fmt: skip
+
+    shown_state = parameter("shown_state", State)
+    shown_control = parameter("shown_control", Control)
+    shown_deletable = parameter("shown_deletable", BOOL)
+    shown_reusable = parameter("shown_reusable", BOOL)
+    listed = PI.some("listed")
+    controller_is = PI.maybe("controller_is")
+    shown_mode = optional("shown_mode", Mode)
+    shown_count = parameter("shown_count", integer())
+    extended = parameter("extended", BOOL)
+
+    attributes = Observation(
+        "R-7.3.3.9-1", "R-6.3.8.3-1",
+        on=shown("getProgramInvocationAttributes", pi, shown_state, shown_deletable, shown_reusable, extended, shown_control,
+                 listed, controller_is, shown_mode, shown_count),
+        shows=[
+            needs("R-8.3.1-6", "R-7.3.3.9.2.2-1", rule="attributes.arm-control",
+                  that=(extended & standard_arm[pi]) >> (shown_control == Control.CONTROLLED), says="{pi} must be CONTROLLED"),
+            needs("R-8.3.2-3", "R-6.3.6-7", rule="attributes.calibration-control",
+                  that=(extended & calibrates[pi]) >> (shown_control == Control.NORMAL), says="{pi} must be NORMAL"),
+            needs("R-8.3.1-3", rule="attributes.arm-deletable", that=standard_arm[pi] >> ~shown_deletable, says="{pi} must not be deletable"),
+            needs("R-8.3.1-4", rule="attributes.arm-reusable", that=standard_arm[pi] >> shown_reusable, says="{pi} must be reusable"),
+            needs("R-8.3.2-2", rule="attributes.calibration-fixed", that=calibrates[pi] >> (~shown_deletable & shown_reusable),
+                  says="{pi} must be reusable and not deletable"),
+            needs("R-7.3.3.9-1", "B-ATTRIBUTES", rule="attributes.unknown",
+                  that=exists[pi] & (shown_state != State.NON_EXISTENT), says="{pi} does not exist"),
+            needs("R-7.3.3.9.2.2-1", "R-6.3.2.2-1", rule="attributes.control",
+                  that=extended >> (control[pi] == shown_control), says="the control attribute of {pi} cannot be {shown_control}"),
+            needs("R-7.3.3.9-1", "B-ATTRIBUTES", rule="attributes.deletable", that=deletable[pi] == shown_deletable,
+                  says="mmsDeletable of {pi} cannot be {shown_deletable}"),
+            needs("R-7.3.3.9-1", "B-ATTRIBUTES", rule="attributes.reusable", that=reusable[pi] == shown_reusable,
+                  says="reusable of {pi} cannot be {shown_reusable}"),
+            needs("R-7.3.3.9-1", "B-ATTRIBUTES", rule="attributes.state", that=state[pi] == shown_state,
+                  says="{pi} cannot be {shown_state}"),
+            needs("R-7.3.3.9.2.4-1", "R-6.3.2.3-2", rule="attributes.list",
+                  that=(extended & (shown_control == Control.CONTROLLING)) >> for_all(c)(controls[pi, c] == listed.has(c)),
+                  says="the list of {pi} cannot be the one shown"),
+            needs("R-7.3.3.9.2.11-1", "R-6.3.2.8-2", "R-6.3.2.8-3", rule="attributes.controller",
+                  that=(extended & (shown_control == Control.CONTROLLED)) >> for_all(a)(controller[pi, a] == (controller_is.present & (a == controller_is))),
+                  says="the controlling reference of {pi} cannot be the one shown"),
+            needs("R-7.3.3.9.2.6-1", "R-6.3.2.5-1", rule="attributes.mode",
+                  that=shown_mode.present >> (mode[pi] == shown_mode), says="the running mode of {pi} cannot be {shown_mode}"),
+            needs("R-7.3.3.9.2.6-1", "R-6.3.2.6-1", rule="attributes.cycles",
+                  that=(shown_mode.present & (shown_mode == Mode.CYCLE_LIMITED)) >> (cycles[pi] == shown_count),
+                  says="{pi} cannot have {shown_count} cycles left"),
+            needs("R-7.3.3.9.2.6-1", "R-6.3.2.7-1", rule="attributes.steps",
+                  that=(shown_mode.present & (shown_mode == Mode.STEP_LIMITED)) >> (steps[pi] == shown_count),
+                  says="{pi} cannot have {shown_count} steps left"),
+        ],
+    )  # fmt: skip
+
+    unknown_attributes = Observation(
+        "R-7.3.3.9.3-1",
+        on=shown("noProgramInvocationAttributes", pi),
+        shows=[needs("R-7.3.3.9.3-1", "B-ATTRIBUTES", rule="attributes.refused", level="warning", that=~exists[pi], says="{pi} exists")],
+    )  # fmt: skip
+
+    local_control_shown = Observation(
+        "R-8.5.3.3-1", "R-6.3.8.2-1",
+        on=shown("R_VLOCAL", shown_local),
+        shows=[needs("R-8.5.3.3-1", rule="variable.local-control", that=local_control() == shown_local, says="local control cannot be {shown_local}")],
+    )  # fmt: skip

@@ -1,0 +1,204 @@
+"""Creating, deleting and killing program invocations, and what they do by themselves (7.3.3.2, 7.3.3.7, 7.3.3.8; 6.3.2.5).
+
+Each part states the text as it stands, then the repaired reading of the same clauses.
+"""
+
+from .admission import ALL_BUT_RUNNING, EVERYTHING, admission
+from .vocabulary import Control, Mode, RobotState, State, Vocabulary, VocabularyRepaired
+
+from mmsverify.model import (
+    Procedure, Transition, accept, do, for_some, if_, integer, internal, parameter, refuse, repaired, response,
+)  # fmt: skip
+
+
+class Programs(Vocabulary):
+    """As written."""
+
+    others_controlling = for_some(p)((p != pi) & exists[p] & (control[p] == Control.CONTROLLING))
+
+    create = Procedure(
+        "R-7.3.3.2.3",
+        on=response("createProgramInvocation", request, user, pi, kind, reuse, binds_arm),
+        steps=[
+            refuse("0", "B-CREATE", when=exists[pi], rule="create.exists", says="{pi} exists already"),
+            do("0", state[pi].becomes(State.IDLE), control[pi].becomes(kind), deletable[pi].becomes(True),
+               reusable[pi].becomes(reuse), arm[pi].becomes(binds_arm)),
+            do("a", controls[pi, c].becomes(False).over(c).when(kind == Control.CONTROLLING),
+               mode[pi].becomes(Mode.FREE_RUN).when(kind == Control.CONTROLLING)),
+            do("b", controller[pi, a].becomes(False).over(a).when(kind == Control.CONTROLLED)),
+            do("R-5.3.1.3.3.2-3", robot_state().becomes(RobotState.LOADED).when(kind == Control.CONTROLLING), cites=["R-6.3.5.2-1"]),
+            accept("0"),
+        ],
+    )  # fmt: skip
+
+    delete = Procedure(
+        "R-7.3.3.8.1",
+        on=response("deleteProgramInvocation", request, user, pi),
+        steps=[
+            refuse("a", "B-DELETE", unless=exists[pi], rule="delete.unknown", says="{pi} does not exist"),
+            refuse("a", "B-DELETE", unless=deletable[pi], rule="delete.not-deletable", says="{pi} cannot be deleted by MMS"),
+            refuse("a", "B-DELETE", unless=state[pi].isin([State.IDLE, State.STOPPED, State.UNRUNNABLE]),
+                   rule="delete.state", says="{pi} is neither IDLE nor STOPPED nor UNRUNNABLE"),
+            refuse("b", unless=holder[user], rule="delete.without-control", says="{user} does not hold R_CTRL"),
+            refuse("c1", when=(control[pi] == Control.CONTROLLED) & for_some(a)(controller[pi, a] & (state[a] != State.IDLE)),
+                   rule="delete.controller-active", says="the program invocation that controls {pi} is not IDLE"),
+            do("c2", controls[a, pi].becomes(False).over(a).when((control[pi] == Control.CONTROLLED) & controller[pi, a])),
+            do("d", controller[c, pi].becomes(False).over(c).when((control[pi] == Control.CONTROLLING) & controls[pi, c])),
+            do("e", state[pi].becomes(State.NON_EXISTENT)),
+            do("R-5.3.1.3.3.3-1", robot_state().becomes(RobotState.IDLE).when((control[pi] == Control.CONTROLLING) & ~others_controlling),
+               cites=["R-6.3.5.3-1"]),
+            accept("e"),
+        ],
+    )  # fmt: skip
+
+    kill = Procedure(
+        "R-7.3.3.7.1",
+        on=response("kill", request, user, pi),
+        steps=[
+            refuse("a", "B-KILL", unless=exists[pi], rule="kill.unknown", says="{pi} does not exist"),
+            refuse("b", unless=holder[user], rule="kill.without-control", says="{user} does not hold R_CTRL"),
+            do("c", state[pi].becomes(State.UNRUNNABLE)),
+            accept("c"),
+        ],
+    )  # fmt: skip
+
+    end_of_execution = Transition(
+        "R-5.3.1.3.3.7-1", "R-6.3.5.7-1", "R-6.3.2.5-3", "B-END",
+        on=internal("end_of_execution", pi),
+        when=[state[pi] == State.RUNNING],
+        then=[state[pi].becomes(if_(reusable[pi], State.IDLE, State.UNRUNNABLE)),
+              robot_state().becomes(RobotState.LOADED).when(selected[pi] & (robot_state() == RobotState.EXECUTING))],
+    )  # fmt: skip
+
+    remaining = parameter("remaining", integer())
+
+    counts_cycles = Transition(
+        "R-6.3.2.5-3", "R-6.3.2.6-1",
+        on=internal("counts_cycles", pi, remaining),
+        when=[runs[pi], mode[pi] == Mode.CYCLE_LIMITED, remaining >= 0, remaining < cycles[pi]],
+        then=[cycles[pi].becomes(remaining)],
+    )  # fmt: skip
+
+    counts_steps = Transition(
+        "R-6.3.2.5-4", "R-6.3.2.7-1",
+        on=internal("counts_steps", pi, remaining),
+        when=[runs[pi], mode[pi] == Mode.STEP_LIMITED, remaining >= 0, remaining < steps[pi]],
+        then=[steps[pi].becomes(remaining)],
+    )  # fmt: skip
+
+    steps_exhausted = Transition(
+        "R-6.3.2.5-4",
+        on=internal("steps_exhausted", pi),
+        when=[state[pi] == State.RUNNING, mode[pi] == Mode.STEP_LIMITED],
+        then=[state[pi].becomes(State.STOPPED), steps[pi].becomes(0)],
+    )  # fmt: skip
+
+
+class ProgramsRepaired(Programs, VocabularyRepaired):
+    """The repaired reading."""
+
+    moves_arm = arm[pi] & (control[pi] == Control.CONTROLLED)
+
+    # The selected program invocation goes away: it is deselected first, and what it controlled and still runs is stopped.
+    deselect_first = [
+        state[c].becomes(State.STOPPED).over(c).when(selected[pi] & controls[pi, c] & (state[c] == State.RUNNING)),
+        controller[c, a].becomes(False).over(c, a).when(selected[pi] & (a == pi)),
+        controls[a, c].becomes(False).over(a, c).when(selected[pi] & (a == pi)),
+        motion().becomes(False).when(selected[pi] | (moves_arm & started[pi])),
+        selected[a].becomes(False).over(a).when(a == pi),
+    ]  # fmt: skip
+
+    create = Procedure(
+        "R-7.3.3.2.3",
+        on=response("createProgramInvocation", request, user, panel, pi, kind, reuse, binds_arm),
+        steps=[
+            *admission("create", panel, local_control(), logical(), ALL_BUT_RUNNING),
+            refuse("0", "B-CREATE", when=exists[pi], rule="create.exists", says="{pi} exists already"),
+            do("0", state[pi].becomes(State.IDLE), control[pi].becomes(kind), deletable[pi].becomes(True),
+               reusable[pi].becomes(reuse), arm[pi].becomes(binds_arm)),
+            do("a", controls[pi, c].becomes(False).over(c), mode[pi].becomes(Mode.FREE_RUN)),
+            do("b", controller[pi, a].becomes(False).over(a)),
+            accept("0"),
+        ],
+        repairs=repaired("RP-13", "R-5.3.1.3.3.2-3", because="a new task program does not change READY, EXECUTING or MOTION-PAUSED"),
+    )  # fmt: skip
+
+    delete = Procedure(
+        "R-7.3.3.8.1",
+        on=response("deleteProgramInvocation", request, user, panel, pi),
+        steps=[
+            *admission("delete", panel, local_control(), logical(), ALL_BUT_RUNNING),
+            refuse("a", "B-DELETE", unless=exists[pi], rule="delete.unknown", says="{pi} does not exist"),
+            refuse("a", "B-DELETE", unless=deletable[pi], rule="delete.not-deletable", says="{pi} cannot be deleted by MMS"),
+            refuse("a", "B-DELETE", unless=state[pi].isin([State.IDLE, State.STOPPED, State.UNRUNNABLE]),
+                   rule="delete.state", says="{pi} is neither IDLE nor STOPPED nor UNRUNNABLE"),
+            refuse("b", unless=holder[user] | panel, rule="delete.without-control", says="{user} does not hold R_CTRL"),
+            refuse("c1", when=(control[pi] == Control.CONTROLLED) & for_some(a)(controller[pi, a] & (state[a] != State.IDLE)),
+                   rule="delete.controller-active", says="the program invocation that controls {pi} is not IDLE"),
+            refuse("R-7.3.3.8.1-e", "RP-04", when=selected[pi] & motion(), rule="delete.in-motion", level="warning",
+                   says="{pi} is selected and motion is enabled"),
+            do("R-6.1.3.2.6-2", *deselect_first, cites=["RP-04"]),
+            do("c2", controls[a, pi].becomes(False).over(a)),
+            do("d", controller[c, pi].becomes(False).over(c)),
+            do("e", state[pi].becomes(State.NON_EXISTENT), controller[pi, a].becomes(False).over(a),
+               controls[pi, c].becomes(False).over(c)),
+            accept("e"),
+        ],
+        repairs=repaired("RP-04", "R-7.3.3.8.1-e", "R-6.1.3.2.6-2", "R-6.3.2.3-2",
+                         because="the text leaves the selected attribute and the list of a deleted program invocation dangling"),
+    )  # fmt: skip
+
+    kill = Procedure(
+        "R-7.3.3.7.1",
+        on=response("kill", request, user, panel, pi),
+        steps=[
+            *admission("kill", panel, local_control(), logical(), EVERYTHING),
+            refuse("a", "B-KILL", unless=exists[pi], rule="kill.unknown", says="{pi} does not exist"),
+            refuse("b", unless=holder[user] | panel, rule="kill.without-control", says="{user} does not hold R_CTRL"),
+            do("R-6.1.3.2.6-2", *deselect_first, cites=["RP-03", "RP-04"]),
+            do("c", state[pi].becomes(State.UNRUNNABLE)),
+            accept("c"),
+        ],
+        repairs=repaired("RP-04", "R-7.3.3.7.1-c", because="a killed program invocation cannot control the robot, nor move its arm"),
+    )  # fmt: skip
+
+    end_of_execution = Transition(
+        "R-5.3.1.3.3.7-1", "R-5.3.1.3.3.7-2", "R-6.3.5.7-1", "R-6.3.2.5-3", "B-END",
+        on=internal("end_of_execution", pi),
+        when=[state[pi] == State.RUNNING],
+        then=[
+            state[c].becomes(State.IDLE).over(c).when(selected[pi] & controls[pi, c] & started[c]),
+            state[pi].becomes(if_(reusable[pi], State.IDLE, State.UNRUNNABLE)),
+            controller[c, a].becomes(False).over(c, a).when(selected[pi] & (a == pi)),
+            controls[a, c].becomes(False).over(a, c).when(selected[pi] & (a == pi)),
+            motion().becomes(False).when(selected[pi] | moves_arm),
+            cycles[pi].becomes(0),
+            selected[a].becomes(False).over(a).when(a == pi),
+        ],
+        repairs=repaired("RP-05", "R-5.3.1.3.3.7-1", "R-6.3.2.5-3",
+                         because="the robot is LOADED again only if the selection is cleared; a new Select is due before the next Start"),
+    )  # fmt: skip
+
+    steps_exhausted = Transition(
+        "R-6.3.2.5-4",
+        on=internal("steps_exhausted", pi),
+        when=[state[pi] == State.RUNNING, mode[pi] == Mode.STEP_LIMITED],
+        then=[state[pi].becomes(State.STOPPED), steps[pi].becomes(0), motion().becomes(False).when(moves_arm)],
+        repairs=repaired("RP-03", "R-6.3.2.5-4", because="motion is not enabled by an arm program that has left RUNNING"),
+    )  # fmt: skip
+
+    fails_by_itself = Transition(
+        "R-6.3.2.1-1", "B-FAIL", "RP-18",
+        on=internal("fails_by_itself", pi, destructive),
+        when=[state[pi] == State.RUNNING],
+        then=[
+            state[c].becomes(State.STOPPED).over(c).when(destructive & selected[pi] & controls[pi, c] & (state[c] == State.RUNNING)),
+            state[pi].becomes(if_(destructive, State.UNRUNNABLE, State.STOPPED)),
+            controller[c, a].becomes(False).over(c, a).when(destructive & selected[pi] & (a == pi)),
+            controls[a, c].becomes(False).over(a, c).when(destructive & selected[pi] & (a == pi)),
+            motion().becomes(False).when((destructive & selected[pi]) | moves_arm),
+            selected[a].becomes(False).over(a).when(destructive & (a == pi)),
+        ],
+        observation_only=True,
+        repairs=repaired("RP-18", "R-6.3.2.1-1", because="a program may stop on its own error, which no message announces"),
+    )  # fmt: skip

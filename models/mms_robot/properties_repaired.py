@@ -1,0 +1,52 @@
+"""The claims that the repaired reading states otherwise, and the invariants that it adds so that the others follow."""
+
+from .properties import Properties
+from .vocabulary import Control, Logical, Physical, RobotState, State, VocabularyRepaired
+
+from mmsverify.model import (
+    Always, Derived, Initially, Step, all_of, any_of, for_all, for_some, repaired, service_is, unchanged,
+)  # fmt: skip
+
+
+class PropertiesRepaired(Properties, VocabularyRepaired):
+    """The repaired reading."""
+
+    robot_at_power_on = Initially("R-6.3.5.2-2", ~intervention(),
+                                  repairs=repaired("RP-12", "R-6.3.5.2-2", because="the robot state follows from the rest"))  # fmt: skip
+    ready_controls_arm = Always(
+        "R-6.3.4.4-1", for_all(a, c)(((robot_state() == RobotState.READY) & arm[c] & controller[c, a]) >> selected[a]),
+        repairs=repaired("RP-12", "R-6.3.4.4-1", because="an arm is not required in the list; if it is controlled, then by the selected one"))  # fmt: skip
+
+    lists_end = Always("R-6.3.2.3-1", for_all(a, c)(controls[a, c] >> (exists[a] & (control[a] == Control.CONTROLLING))),
+                       says="only an existing CONTROLLING program invocation has a list",
+                       repairs=repaired("RP-04", "R-6.3.2.3-1", because="nothing dangles"))  # fmt: skip
+    references_end = Always("R-6.3.2.8-1", for_all(a, c)(controller[c, a] >> (exists[c] & (control[c] == Control.CONTROLLED))),
+                            says="only an existing CONTROLLED program invocation has a controlling reference",
+                            repairs=repaired("RP-04", "R-6.3.2.8-1", because="nothing dangles"))  # fmt: skip
+    idle_predicate = Derived(~intervention() & ~some_controlling() & ~some_selected(),
+                             repairs=repaired("RP-12", "R-6.3.4.2-1", because="manual intervention comes first"))  # fmt: skip
+    loaded_predicate = Derived(~intervention() & some_controlling() & ~some_selected(),
+                               repairs=repaired("RP-12", "R-6.3.4.3-1", because="manual intervention comes first"))  # fmt: skip
+    ready_predicate = Derived(
+        ~intervention() & some_selected() & for_all(a)(selected[a] >> state[a].isin([State.IDLE, State.STARTING])),
+        repairs=repaired("RP-12", "R-6.3.4.4-1", because="STARTING counts as IDLE, and an arm is not required"))  # fmt: skip
+    executing_predicate = Derived(
+        ~intervention() & motion() & some_selected() & for_all(a)(selected[a] >> started[a]),
+        repairs=repaired("RP-12", "R-6.3.4.5-2", because="STOPPING counts as RUNNING, RESUMING and RESETTING as STOPPED or RUNNING"))  # fmt: skip
+    paused_predicate = Derived(
+        ~intervention() & ~motion() & some_selected() & for_all(a)(selected[a] >> started[a]),
+        repairs=repaired("RP-12", "R-6.3.4.6-2", because="STOPPING counts as RUNNING, RESUMING and RESETTING as STOPPED or RUNNING"))  # fmt: skip
+    intervention_predicate = Derived(
+        intervention() & ~motion() & (logical() != Logical.STATE_CHANGES_ALLOWED) & (physical() == Physical.NEEDS_COMMISSIONING),
+        repairs=repaired("RP-12", "R-6.3.4.7-3", because="the two statuses alone do not make MANUAL-INTERVENTION-REQUIRED"))  # fmt: skip
+
+    executing_exclusive = Always("R-6.3.4.5-1", ~(executing_predicate() & any_of(idle_predicate(), loaded_predicate(), ready_predicate(), paused_predicate())),
+                                 repairs=repaired("RP-12", "R-6.3.4.5-1", because="stated for the mapping"))  # fmt: skip
+    ready_exclusive = Always("R-6.3.4.4-1", ~(ready_predicate() & any_of(idle_predicate(), loaded_predicate(), paused_predicate())),
+                             repairs=repaired("RP-12", "R-6.3.4.4-1", because="stated for the mapping"))  # fmt: skip
+
+    motion_needs_selected = Always("R-6.3.4.5-2", motion() >> for_all(a)(selected[a] >> started[a]), "RP-07",
+                                   repairs=repaired("RP-07", "R-6.3.4.5-2", because="no motion of a task program that has not been started"))  # fmt: skip
+    arm_of_motion_is_led = Always(
+        "R-6.3.4.5-1", for_all(c)((motion() & arm[c] & (control[c] == Control.CONTROLLED) & runs[c]) >> for_some(a)(controller[c, a] & selected[a])),
+        repairs=repaired("RP-19", "R-6.3.4.5-1", because="motion outside figure 8"))  # fmt: skip

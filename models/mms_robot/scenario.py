@@ -1,0 +1,49 @@
+"""Small worlds in which the model is explored: which program invocations a profile predefines, and with what attributes."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from .vocabulary import Control
+
+DEFAULT = (
+    {"name": "R_ARM", "control": "CONTROLLED", "domains": ["R_ARM"], "deletable": False},
+    {"name": "R_CAL", "control": "NORMAL", "domains": ["R_CAL"], "deletable": False},
+)
+
+
+def scenario(sizes: Mapping[str, int], profile: Mapping[str, Any]) -> tuple[dict[str, tuple[str, ...]], dict[tuple[str, tuple[str, ...]], Any]]:
+    """Element names for each sort and the facts about them.
+
+    The first program invocations are the predefined ones of the profile, as many as fit; the others are there to be created.
+    """
+    predefined = list(profile.get("predefined", DEFAULT))[: sizes.get("PI", 3)]
+    names = [str(entry["name"]) for entry in predefined]
+    others = [f"P{i + 1}" for i in range(sizes.get("PI", 3) - len(names))]
+    elements = {
+        "PI": (*names, *others),
+        "Client": tuple(f"client{i + 1}" for i in range(sizes.get("Client", 1))),
+        "Request": tuple(f"request{i + 1}" for i in range(sizes.get("Request", 1))),
+    }
+    facts: dict[tuple[str, tuple[str, ...]], Any] = {
+        ("step_limited", ()): bool(profile.get("step_limited", True)),
+        ("single_association", ()): profile.get("associations", "single") == "single",
+    }
+    for name in elements["PI"]:
+        entry = next((e for e in predefined if e["name"] == name), None)
+        facts |= attributes(name, entry, profile)
+    return elements, facts
+
+
+def attributes(name: str, entry: Mapping[str, Any] | None, profile: Mapping[str, Any]) -> dict[tuple[str, tuple[str, ...]], Any]:
+    """What is fixed about one program invocation; ``entry`` is its place among the predefined ones, if it has one."""
+    given = entry or {}
+    return {
+        ("predefined", (name,)): entry is not None,
+        ("predefined_control", (name,)): Control(given.get("control", "NORMAL")),
+        ("predefined_deletable", (name,)): bool(given.get("deletable", True)),
+        ("predefined_reusable", (name,)): bool(given.get("reusable", True)),
+        ("predefined_arm", (name,)): name in profile.get("arms", ["R_ARM"]),
+        ("selected_at_power_on", (name,)): name == profile.get("selected_at_power_on", ""),
+        ("calibrates", (name,)): name == "R_CAL" and entry is not None,
+        ("standard_arm", (name,)): name == "R_ARM" and entry is not None,
+    }

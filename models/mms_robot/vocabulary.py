@@ -1,0 +1,167 @@
+"""The words of the robot standard: sorts, state variables and the parameters of its services (clauses 3, 5.3, 6).
+
+A reference from one program invocation to another is a relation, so that "the list says" and "the reference says" are two
+facts whose agreement is a property and not a given. NONE and UNCONTROLLED are "no element".
+"""
+
+from mmsverify.model import (
+    BOOL, Derived, Each, Enumeration, Model, Relation, Variable, for_some, if_, integer, optional, parameter, repaired,
+)  # fmt: skip
+
+
+class Control(Enumeration):
+    """The control attribute of a program invocation (6.3.2.2)."""
+
+    NORMAL = "NORMAL"
+    CONTROLLING = "CONTROLLING"
+    CONTROLLED = "CONTROLLED"
+
+
+class State(Enumeration):
+    """The state of a program invocation (base standard); the last four are entered by an indication, left by its response."""
+
+    NON_EXISTENT = "NON-EXISTENT"
+    UNRUNNABLE = "UNRUNNABLE"
+    IDLE = "IDLE"
+    RUNNING = "RUNNING"
+    STOPPED = "STOPPED"
+    STARTING = "STARTING"
+    STOPPING = "STOPPING"
+    RESUMING = "RESUMING"
+    RESETTING = "RESETTING"
+
+
+class Mode(Enumeration):
+    """The running mode of a controlling program invocation (6.3.2.5)."""
+
+    FREE_RUN = "FREE-RUN"
+    CYCLE_LIMITED = "CYCLE-LIMITED"
+    STEP_LIMITED = "STEP-LIMITED"
+
+
+class RobotState(Enumeration):
+    """The robot operation states of figure 8 (5.3.1.3.2)."""
+
+    IDLE = "ROBOT-IDLE"
+    LOADED = "ROBOT-LOADED"
+    READY = "ROBOT-READY"
+    EXECUTING = "ROBOT-EXECUTING"
+    MOTION_PAUSED = "ROBOT-MOTION-PAUSED"
+    INTERVENTION = "MANUAL-INTERVENTION-REQUIRED"
+
+
+class Logical(Enumeration):
+    """The logical status of the VMD (base standard; Table 1)."""
+
+    STATE_CHANGES_ALLOWED = "STATE-CHANGES-ALLOWED"
+    NO_STATE_CHANGES_ALLOWED = "NO-STATE-CHANGES-ALLOWED"
+    LIMITED_SERVICES_PERMITTED = "LIMITED-SERVICES-PERMITTED"
+    SUPPORT_SERVICES_ALLOWED = "SUPPORT-SERVICES-ALLOWED"
+
+
+class Physical(Enumeration):
+    """The physical status of the VMD (base standard)."""
+
+    OPERATIONAL = "OPERATIONAL"
+    PARTIALLY_OPERATIONAL = "PARTIALLY-OPERATIONAL"
+    INOPERABLE = "INOPERABLE"
+    NEEDS_COMMISSIONING = "NEEDS-COMMISSIONING"
+
+
+class Vocabulary(Model):
+    """Sorts, variables and parameters; no rows."""
+
+    PI = Each("ProgramInvocation")
+    Client = Each("Association")
+    Request = Each("Request")
+
+    # What a profile fixes.
+    predefined = Relation(PI, rigid=True, doc="exists at power-on")
+    predefined_control = Variable(Control, PI, rigid=True, doc="its control attribute then")
+    predefined_deletable = Relation(PI, rigid=True, doc="can be deleted by MMS")
+    predefined_reusable = Relation(PI, rigid=True)
+    predefined_arm = Relation(PI, rigid=True, doc="is bound to a domain of a robot arm")
+    selected_at_power_on = Relation(PI, rigid=True)
+    calibrates = Relation(PI, rigid=True, doc="R_CAL, the calibration program (6.3.6, 8.3.2)")
+    standard_arm = Relation(PI, rigid=True, doc="R_ARM, the arm program by its standardized name (8.3.1)")
+    step_limited = Relation(rigid=True, doc="STEP-LIMITED is supported (PICS part 6)")
+    single_association = Relation(rigid=True, doc="base class: one association, which holds R_CTRL")
+
+    # Program invocations (6.3.2).
+    state = Variable(State, PI)
+    control = Variable(Control, PI)
+    deletable = Relation(PI)
+    reusable = Relation(PI)
+    arm = Relation(PI, doc="bound to a domain that represents a robot arm")
+    controls = Relation(PI, PI, doc="controls[a, c]: the list of a names c (6.3.2.3)")
+    controller = Relation(PI, PI, doc="controller[c, a]: the reference of c names a (6.3.2.8)")
+    mode = Variable(Mode, PI)
+    cycles = Variable(integer(0), PI, doc="remaining cycle count (6.3.2.6)")
+    steps = Variable(integer(0), PI, doc="remaining step count (6.3.2.7)")
+
+    # The VMD (6.1.3) and the arm (6.2.2.5).
+    selected = Relation(PI, doc="at most one: the selected program invocation (6.1.3.2.6)")
+    motion = Relation(doc="motion enabled (3.2.2, 6.2.2.5)")
+    local_control = Relation(doc="some local agent holds control (3.2.1, 6.1.3.2.5)")
+    logical = Variable(Logical)
+    physical = Variable(Physical)
+    robot_state = Variable(RobotState, doc="as the text has it: a stored attribute that 6.3.5 and 7.4 change")
+
+    # Associations, the semaphore R_CTRL (8.6.1), outstanding requests.
+    associated = Relation(Client)
+    holder = Relation(Client, doc="owns the one token of R_CTRL")
+    entered = Relation(Request, PI, doc="this request's indication brought the program invocation into its transient state")
+    selecting = Relation(Request, PI, doc="a Select indication of it is being handled: figure 10, 101 or 104")
+
+    p, a, b, c = PI.elements("p a b c")
+    u, v = Client.elements("u v")
+    q = Request.element("q")
+
+    # Parameters of the services.
+    request = Request.element("request")
+    user = Client.element("user")
+    panel = parameter("panel", BOOL)
+    pi = PI.element("pi")
+    controlling = PI.maybe("controlling")
+    controlled = PI.some("controlled")
+    named_twice = parameter("named_twice", BOOL)
+    kind = parameter("kind", Control)
+    reuse = parameter("reuse", BOOL)
+    binds_arm = parameter("binds_arm", BOOL)
+    location_given = parameter("location_given", BOOL)
+    limit = optional("limit", Mode)
+    count = parameter("count", integer())
+    destructive = parameter("destructive", BOOL)
+    type_given = parameter("type_given", BOOL)
+    prevented = parameter("prevented", BOOL)
+    taken = parameter("taken", BOOL)
+    status = parameter("status", Logical)
+    condition = parameter("condition", Physical)
+    cleared = parameter("cleared", BOOL)
+    to_idle = PI.some("to_idle")
+    to_stopped = PI.some("to_stopped")
+    to_unrunnable = PI.some("to_unrunnable")
+
+    exists = Derived(state[p] != State.NON_EXISTENT, over=[p])
+    some_controlling = Derived(for_some(p)((state[p] != State.NON_EXISTENT) & (control[p] == Control.CONTROLLING)))
+    some_selected = Derived(for_some(p)(selected[p]))
+    started = Derived(~state[p].isin([State.NON_EXISTENT, State.UNRUNNABLE, State.IDLE, State.STARTING]), over=[p])
+    active = Derived(started[p] & (state[p] != State.STOPPED) | (state[p] == State.STARTING), over=[p])
+    runs = Derived(state[p].isin([State.RUNNING, State.STOPPING]), over=[p])
+    selected_started = Derived(for_some(p)(selected[p] & started[p]))
+
+
+class VocabularyRepaired(Vocabulary):
+    """The repaired reading: the robot state is a function of the rest, and only MANUAL-INTERVENTION-REQUIRED is stored."""
+
+    intervention = Relation(doc="MANUAL-INTERVENTION-REQUIRED, the one robot state that is stored (RP-12)")
+
+    robot_state = Derived(
+        if_(intervention(), RobotState.INTERVENTION,
+            if_(~some_controlling(), RobotState.IDLE,
+                if_(~some_selected(), RobotState.LOADED,
+                    if_(~selected_started(), RobotState.READY,
+                        if_(motion(), RobotState.EXECUTING, RobotState.MOTION_PAUSED))))),
+        repairs=repaired("RP-12", "R-6.3.4.2-1", "R-6.3.4.3-1", "R-6.3.4.4-1",
+                         because="the predicates of 6.3.4 are neither exhaustive nor exclusive; under this mapping they are"),
+    )  # fmt: skip
