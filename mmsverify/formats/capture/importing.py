@@ -1,0 +1,189 @@
+"""Captures to a trace: opens the files, keeps count of what was read and what could not be read."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+from mmsverify.errors import InputError
+from mmsverify.formats.capture.conversation import (
+    Conversation,
+    Names,
+    Ports,
+    looks_like_mms,
+    reader,
+    server_of,
+)
+from mmsverify.formats.capture.faults import Fault, UnreadableError
+from mmsverify.formats.capture.link import LINKS, Segment, segment_of
+from mmsverify.formats.capture.packets import Capture, Packet
+from mmsverify.formats.capture.tcp import Connection, Connections, Happening
+from mmsverify.formats.mcap_write import TraceWriter
+from mmsverify.formats.trace import Channel, Role
+
+
+@dataclass(frozen=True, slots=True)
+class Undecoded:
+    """A frame that could not be read, or not wholly: its number in the capture from 1 (0: the whole file)."""
+
+    packet: int
+    layer: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
+class ImportedInput:
+    """What was found in one capture; the field names are those of the JSON result."""
+
+    path: str
+    frames: int
+    pdus: Mapping[str, int]
+    undecoded: list[Undecoded]
+
+
+def import_captures(
+    paths: Iterable[str | os.PathLike[str]],
+    writer: TraceWriter,
+    *,
+    ports: Ports | None = None,
+    hosts: Mapping[str, str] | None = None,
+) -> list[ImportedInput]:
+    """Write the MMS PDUs and Modbus ADUs of captures into one trace; connections keep distinct names.
+
+    ``hosts`` names VMDs and controllers by address (``10.0.0.5`` or ``10.0.0.5:102``). A capture that cannot
+    be read is reported with its reason and no frames; raises ``InputError`` where none could be read.
+    """
+    names = Names(dict(hosts or {}))
+    done: list[ImportedInput] = []
+    errors: list[InputError] = []
+    for path in paths:
+        try:
+            done.append(_Import(path, writer, ports or Ports(), names).run())
+        except InputError as error:
+            errors.append(error)
+            fault = Undecoded(0, "file", error.cause)
+            done.append(ImportedInput(os.fspath(path), 0, _counts(), [fault]))
+    if errors and len(errors) == len(done):
+        raise errors[0]
+    return done
+
+
+def _counts(mms: int = 0, modbus: int = 0) -> dict[str, int]:
+    return {"mms": mms, "modbus": modbus, "vr": 0}
+
+
+@dataclass(slots=True)
+class _Unnamed:
+    """A connection of which nobody knows yet whether it is of interest."""
+
+    opened: Happening | None = None
+    foreign: bool = False
+
+
+@dataclass(slots=True)
+class _Import:
+    path: str | os.PathLike[str]
+    writer: TraceWriter
+    ports: Ports
+    names: Names
+    _faults: dict[int, Undecoded] = field(default_factory=dict)
+    _unread_links: dict[int, int] = field(default_factory=dict)
+    _conversations: dict[Connection, Conversation | _Unnamed] = field(default_factory=dict)
+    _connections: Connections = field(default_factory=Connections)
+    _frames: int = 0
+    _last: Packet | None = None
+
+    def run(self) -> ImportedInput:
+        capture = Capture(self.path)
+        for packet in capture:
+            self._frames, self._last = packet.number, packet
+            self._packet(packet)
+        self._end(capture.cut)
+        totals = {"mms": 0, "modbus": 0}
+        for conversation in self._conversations.values():
+            if isinstance(conversation, Conversation):
+                totals[conversation.role] += conversation.messages
+        undecoded = [self._faults[packet] for packet in sorted(self._faults)]
+        return ImportedInput(os.fspath(self.path), self._frames, _counts(**totals), undecoded)
+
+    def _packet(self, packet: Packet) -> None:
+        if packet.link not in LINKS:
+            self._unread_links[packet.link] = self._unread_links.get(packet.link, 0) + 1
+            return
+        try:
+            segment = segment_of(packet)
+        except UnreadableError as error:
+            self._report(packet.number, error.fault)
+            return
+        if segment is not None:
+            self._segment(segment)
+
+    def _segment(self, segment: Segment) -> None:
+        for connection, happening in self._connections.feed(segment):
+            self._happening(connection, happening)
+        if segment.missing and self.ports.role((segment.source, segment.target)):
+            self._report(segment.packet, Fault("tcp", f"{segment.missing} octets are not in the capture"))
+
+    def _happening(self, connection: Connection, happening: Happening) -> None:
+        known = self._conversations.setdefault(connection, _Unnamed())
+        if isinstance(known, _Unnamed):
+            if known.foreign:
+                return
+            known = self._decide(connection, known, happening)
+        if isinstance(known, Conversation):
+            known.take(happening)
+
+    def _decide(
+        self, connection: Connection, unnamed: _Unnamed, happening: Happening
+    ) -> Conversation | _Unnamed:
+        """Begin a conversation as soon as it is clear that there is one."""
+        role = self.ports.role(connection.ends)
+        if happening.kind == "open" and role is None:
+            unnamed.opened = happening
+        if happening.kind == "data" and role is None:
+            role = "mms" if looks_like_mms(happening.data) else None
+            unnamed.foreign = role is None
+        if role is None or happening.kind not in ("open", "data"):
+            return unnamed
+        conversation = self._begin(connection, role, happening)
+        if unnamed.opened is not None:
+            conversation.take(unnamed.opened)
+        self._conversations[connection] = conversation
+        return conversation
+
+    def _begin(self, connection: Connection, role: Role, first: Happening) -> Conversation:
+        server = server_of(connection, self.ports.of(role), first)
+        host, name = self.names.host(server, role), self.names.connection(role)
+        kind = Channel.mms if role == "mms" else Channel.modbus
+        return Conversation(
+            role=role,
+            server=server,
+            name=name,
+            reader=reader(role, connection),
+            link=Channel.link(host),
+            channels={"client": kind(host, name, "client"), "server": kind(host, name, "server")},
+            writer=self.writer,
+            report=self._report,
+        )
+
+    def _report(self, packet: int, fault: Fault) -> None:
+        """Keep the first fault of a frame: what follows in it follows from that."""
+        self._faults.setdefault(packet, Undecoded(packet, fault.layer, fault.reason))
+
+    def _end(self, cut: str) -> None:
+        for connection, happening in self._connections.end():
+            self._happening(connection, happening)
+        if self._last is not None:
+            for conversation in self._conversations.values():
+                if isinstance(conversation, Conversation):
+                    conversation.finish(self._last.number, self._last.time)
+        self._note_unread_links()
+        if cut:
+            self._report(self._frames + 1, Fault("file", cut))
+
+    def _note_unread_links(self) -> None:
+        for link, count in sorted(self._unread_links.items()):
+            if count == self._frames:
+                raise InputError(f"link type {link} is not read", place=os.fspath(self.path))
+            self._report(0, Fault("link", f"{count} packets of link type {link} are not read"))
