@@ -1,9 +1,11 @@
 """The control core of program invocations: a small benchmark model, the same for every checker.
 
-State, control and selection of N program invocations, one of which is the arm. Variants: ``as-written`` leaves the
-selection alone when the selected one is deleted; ``repaired`` clears it; ``repaired-motion`` also stops the motion
-when the arm's program ends. The ids ``C-...`` are the benchmark's own.
+State, control and selection of N program invocations, one of which is the arm. Variants: ``as-written``
+leaves the selection alone when the selected one is deleted; ``repaired`` clears it; ``repaired-motion``
+also stops the motion when the arm's program ends. The ids ``C-...`` are the benchmark's own.
 """
+
+# ruff: noqa: F821 (a class body sees the declarations of its bases)
 
 from collections.abc import Mapping
 from typing import Any
@@ -52,7 +54,7 @@ NONEXISTENT, UNRUNNABLE, IDLE, RUNNING, STOPPED = PIState
 NORMAL, CONTROLLING, CONTROLLED = Control
 
 
-def scenario(sizes: Mapping[str, int], _profile: Mapping[str, Any]) -> tuple[dict[str, tuple[str, ...]], dict[Any, Any]]:
+def scenario(sizes: Mapping[str, int], _profile: Mapping[str, Any]) -> tuple[dict[str, Any], dict[Any, Any]]:
     """``PI=N`` counts the arm: R_ARM, P1, P2 and so on."""
     names = ("R_ARM", *(f"P{i}" for i in range(1, sizes.get("PI", 3))))
     return {"PI": names}, {("arm", (name,)): name == "R_ARM" for name in names}
@@ -114,7 +116,10 @@ class CorePart(Model):
         state[p].becomes(IDLE),
     )
 
-    create = Transition("C-create", on=internal("create", p, kind), when=[state[p] == NONEXISTENT, ~arm[p]], then=[
+    create = Transition("C-create", on=internal("create", p, kind), when=[
+        state[p] == NONEXISTENT,
+        ~arm[p],
+    ], then=[
         state[p].becomes(IDLE),
         control[p].becomes(kind),
         refers[p, a].becomes(False).over(a),
@@ -145,18 +150,23 @@ class CorePart(Model):
         motion().becomes(False).when(arm[p]),
     ])  # fmt: skip
     resume = Transition("C-resume", on=internal("resume", p), when=[state[p] == STOPPED, may_run], then=run)
-    reset = Transition("C-reset", on=internal("reset", p), when=[state[p] == STOPPED], then=[state[p].becomes(IDLE)])
+    reset = Transition("C-reset", on=internal("reset", p), when=[state[p] == STOPPED], then=[
+        state[p].becomes(IDLE),
+    ])  # fmt: skip
     kill = Transition("C-kill", on=internal("kill", p), when=[state[p].isin((IDLE, RUNNING, STOPPED))], then=[
         state[p].becomes(UNRUNNABLE),
         motion().becomes(False).when(arm[p]),
     ])  # fmt: skip
-    end = Transition("C-end", on=internal("end", p), when=[state[p] == RUNNING], then=unlink_ended, local=True)
+    end = Transition(
+        "C-end", on=internal("end", p), when=[state[p] == RUNNING], then=unlink_ended, local=True
+    )  # fmt: skip
 
     p1 = Always("C-P1", for_all(a, b, c)((controls[a, c] & controls[b, c]) >> (a == b)))
     p2 = Always("C-P2", for_all(p)(selected[p] >> ((state[p] != NONEXISTENT) & (control[p] == CONTROLLING))))
     p3 = Always("C-P3", for_all(a, c)(controls[a, c] == refers[c, a]))
     p4 = Always("C-P4", for_all(a, c)(controls[a, c] >> (
-        (control[a] == CONTROLLING) & (control[c] == CONTROLLED) & (state[a] != NONEXISTENT) & (state[c] != NONEXISTENT)
+        (control[a] == CONTROLLING) & (control[c] == CONTROLLED)
+        & (state[a] != NONEXISTENT) & (state[c] != NONEXISTENT)
     )))  # fmt: skip
     p5 = Always("C-P5", for_all(a, c)(controls[a, c] >> selected[a]))
     p6 = Always("C-P6", for_all(p)((motion() & arm[p]) >> (state[p] == RUNNING)))
@@ -180,11 +190,13 @@ class RepairedCore(CorePart, name="core", variant="repaired", standard="benchmar
     )  # fmt: skip
 
 
-class RepairedMotion(RepairedCore, name="core", variant="repaired-motion", standard="benchmark", scenario=scenario):
+class RepairedMotion(
+    RepairedCore, name="core", variant="repaired-motion", standard="benchmark", scenario=scenario
+):
     """The end of the arm's program also ends the motion."""
 
     end = Transition(
         "C-end", on=internal("end", p), when=[state[p] == RUNNING],
         then=[*unlink_ended, motion().becomes(False).when(arm[p])], local=True,
-        repairs=repaired("RP-core-2", "C-end", because="the arm would be enabled to move without a running program"),
+        repairs=repaired("RP-core-2", "C-end", because="the arm would stay enabled without a program"),
     )  # fmt: skip

@@ -10,6 +10,6 @@ from mmsverify.concrete.search import SearchResult, search
 from mmsverify.concrete.trace_path import Path, Taken, path_steps
 
 __all__ = [
-    "Machine", "NotAPathError", "Path", "Scope", "SearchResult", "Taken", "generic_scope", "path_steps", "replay",
-    "scope_for", "search",
+    "Machine", "NotAPathError", "Path", "Scope", "SearchResult", "Taken",
+    "generic_scope", "path_steps", "replay", "scope_for", "search",
 ]  # fmt: skip

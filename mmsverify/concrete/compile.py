@@ -1,7 +1,7 @@
-"""Instances as Python source: one function that gives all successors of a packed state, and predicates for claims.
+"""Instances as Python source: one function for the successors of a packed state, and predicates for claims.
 
-A successor is a pair of an instance's number and a packed state, or ``None`` in place of the state where an integer
-would leave its bounds. Nothing here knows expressions of the language.
+A successor is a pair of an instance's number and a packed state, or ``None`` in place of the state where an
+integer would leave its bounds. Nothing here knows expressions of the language.
 """
 
 from __future__ import annotations

@@ -1,11 +1,12 @@
-"""The judge: expressions and rows read by walking the tree, over states that are plain mappings of cells to values.
+"""The judge: expressions and rows read by walking the tree, over states that are plain mappings.
 
-This is the simplest possible reading, and the slowest. The other readers are tested against it and counterexamples are
-replayed by it, so nothing here is shared with them and nothing here is clever.
+This is the simplest possible reading, and the slowest. The other readers are tested against it and
+counterexamples are replayed by it, so nothing here is shared with them and nothing here is clever.
 
-An absent optional parameter has no value. Every Boolean atom that reads one (a comparison, a Boolean cell, a
-membership, the parameter itself) is false; an update at an absent argument touches nothing; an update to an absent
-value is an error of the model. Models protect such reads with ``present``, so that no reader needs another convention.
+An absent optional parameter has no value. Every Boolean atom that reads one (a comparison, a Boolean cell,
+a membership, the parameter itself) is false; an update at an absent argument touches nothing; an update to
+an absent value is an error of the model. Models protect such reads with ``present``, so that no reader
+needs another convention.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ Valuation = Mapping[CellKey, Value]
 
 @dataclass(frozen=True, slots=True)
 class Moment:
-    """All that an expression may speak of: the state, the parameters, and for two-state claims the next state and the row."""
+    """All that an expression may speak of: state and parameters; of a step, the next state and the row."""
 
     scope: Scope
     state: Valuation
@@ -169,7 +170,7 @@ Taken = tuple[Row, dict[str, Binding], dict[CellKey, Value]]
 
 
 def successors(model: ModelData, scope: Scope, state: Valuation) -> Iterator[Taken]:
-    """Every step from a state: row, parameters, state after it. States outside the scope's bounds are given too."""
+    """Every step from a state: row, parameters, state after it, which may lie outside the bounds."""
     for row in model.actions:
         for bindings in scope.bindings(row):
             after = step(row, bindings, state, scope)

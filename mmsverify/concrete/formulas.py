@@ -1,8 +1,8 @@
 """Ground formulas over the positions of a packed state, each stored once and named by a small integer.
 
-Equal formulas are the same integer, so that comparing and sharing cost nothing. The constructors simplify: they know
-that a cell has one value. Formulas 0 and 1 are the literals 0 and 1, and thereby false and true. Nothing here knows
-models or Python source.
+Equal formulas are the same integer, so that comparing and sharing cost nothing. The constructors simplify:
+they know that a cell has one value. Formulas 0 and 1 are the literals 0 and 1, and thereby false and true.
+Nothing here knows models or Python source.
 """
 
 from __future__ import annotations
@@ -18,8 +18,9 @@ FALSE, TRUE = 0, 1
 class Node(NamedTuple):
     """One formula: its operator, the formulas that it is made of, and what the operator needs besides.
 
-    ``cell`` and ``next`` place a ``cell`` or an ``is`` (cell equals ``code``); ``code`` is the literal of a ``const``,
-    the factor of a ``plus``, 1 for an ``ite`` or a ``same`` of truth values, the number of a ``fact``.
+    ``cell`` and ``next`` place a ``cell`` or an ``is`` (cell equals ``code``); ``code`` is the literal of a
+    ``const``, the factor of a ``plus``, 1 for an ``ite`` or a ``same`` of truth values, the number of a
+    ``fact``.
     """
 
     op: Op
@@ -211,7 +212,7 @@ class Formulas:
         return [(condition, c) for condition, c in found if condition != FALSE]
 
     def rebuilt(self, formula: int, atom: Callable[[Node], int | None], memo: dict[int, int]) -> int:
-        """The formula with every atom changed (``None`` keeps it), simplified again; ``memo`` is per ``atom``."""
+        """The formula with every atom changed (``None`` keeps it), simplified; ``memo`` is per ``atom``."""
         found = memo.get(formula)
         if found is None:
             node = self.nodes[formula]

@@ -1,7 +1,7 @@
 """A model's rows and claims with all names put in: ground formulas over the positions of a packed state.
 
-A row becomes its instances, one per way to give values to its parameters; an instance whose guard is false on its
-face is dropped as early as a parameter decides it. Nothing here runs.
+A row becomes its instances, one per way to give values to its parameters; an instance whose guard is false
+on its face is dropped as early as a parameter decides it. Nothing here runs.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ Env = Mapping[str, Code]
 
 @dataclass(frozen=True, slots=True)
 class Instance:
-    """One row with one value for each parameter: the conjuncts of its guard and the new value of each written position."""
+    """One row with one value for each parameter: the conjuncts of its guard, the value of each written position."""
 
     row: Row
     codes: tuple[Code, ...]
@@ -62,7 +62,7 @@ class Grounding:
         return found
 
     def free(self, expr: Expr) -> tuple[str, ...]:
-        """The free names of an expression, sorted; the expression is kept, so that its identity stays its own."""
+        """The free names of an expression, sorted; it is kept, so that its identity stays its own."""
         found = self._free.get(id(expr))
         if found is None:
             found = self._free[id(expr)] = (tuple(sorted(free_names(expr))), expr)
@@ -148,7 +148,7 @@ class Grounding:
         return found
 
     def places(self, args: Sequence[Expr], env: Env) -> Iterator[tuple[tuple[int, ...], tuple[int, ...]]]:
-        """The tuples of codes that arguments can be, each with its conditions; none where an argument is absent."""
+        """The tuples of codes that arguments can be, with their conditions; none where one is absent."""
         cases = [self.formulas.cases(self.formula(arg, env), self.codes(arg.sort)) for arg in args]
         for combined in product(*cases):
             yield tuple(c for c, _ in combined), tuple(code for _, code in combined)
@@ -171,7 +171,7 @@ class Grounding:
         return self.formulas.cell(self.layout.position[variable, names], after)
 
     def instances(self, row: Row) -> Iterator[Instance]:
-        """The instances of a row whose guard is not false on its face, in the order of the parameters' values."""
+        """The instances of a row whose guard is not false on its face, in the order of the values."""
         pending = [part for conjunct in row.guard for part in conjuncts(conjunct.condition)]
         yield from self._instances(row, 0, {}, pending, ())
 

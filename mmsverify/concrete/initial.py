@@ -1,4 +1,4 @@
-"""The states that a model may start in, within a scope: by unit propagation, then by trying what is left open."""
+"""The states that a model may start in: by unit propagation, then by trying what is left open."""
 
 from __future__ import annotations
 

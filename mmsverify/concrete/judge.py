@@ -1,4 +1,4 @@
-"""A claimed path is re-checked before it is believed: by the tree-walking interpreter, from the rows themselves.
+"""A claimed path is re-checked before it is believed: by the tree-walking interpreter, from the rows.
 
 Nothing compiled or grounded is used here.
 """
@@ -16,7 +16,7 @@ from mmsverify.model.rows import Claim
 
 
 class NotAPathError(MmsverifyError):
-    """A path that the rows do not allow, or that does not show what it is said to show: a fault of the checker."""
+    """A path that the rows do not allow, or that does not show what is said: a fault of the checker."""
 
     code = "path"
 
@@ -24,7 +24,8 @@ class NotAPathError(MmsverifyError):
 def replay(model: ModelData, scope: Scope, path: Path, claim: Claim | None = None) -> None:
     """Take every step of ``path`` again; :class:`NotAPathError` if one is not a step of the rows.
 
-    With ``claim``, also make sure that the path ends in a breach of it (or, for a ``Sometimes``, in a witness).
+    With ``claim``, also make sure that the path ends in a breach of it (or, for a ``Sometimes``, in a
+    witness).
     """
     if not path:
         raise NotAPathError("a path without an initial state")

@@ -1,7 +1,7 @@
 """Where each cell of a model stands in a packed state, and what its small integers mean.
 
-A packed state is a ``bytes`` where every value fits in one octet, else a tuple of integers; both are indexed alike.
-Rigid cells whose value is known are not stored. Nothing here knows rows.
+A packed state is a ``bytes`` where every value fits in one octet, else a tuple of integers; both are
+indexed alike. Rigid cells whose value is known are not stored. Nothing here knows rows.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ State = bytes | tuple[int, ...]
 
 
 class Layout:
-    """The cells of a model in a scope: those in ``fixed`` are constants (by their codes), the others have positions."""
+    """The cells of a model in a scope: those in ``fixed`` are constants (codes), the others have a position."""
 
     def __init__(self, model: ModelData, scope: Scope, fixed: Mapping[CellKey, int] | None = None) -> None:
         self.model = model
@@ -38,7 +38,7 @@ class Layout:
         return bytes(codes) if self.in_octets else tuple(codes)
 
     def code(self, sort: Sort, value: Value) -> int:
-        """The small integer that stands for a value: an integer for itself, any other by its order in the sort."""
+        """The small integer that stands for a value: an integer is itself, others go by their order."""
         if isinstance(sort, IntSort):
             return int(value)  # type: ignore[arg-type]
         return self.scope.values(sort).index(value)

@@ -65,7 +65,7 @@ class Machine:
         return compile_successors(self.layout, self.formulas, self.instances, range(len(self.instances)))
 
     def moves(self, steps: Sequence[Claim]) -> Successors:
-        """Like ``successors``, without the steps that can neither change the state nor settle one of these claims."""
+        """Like ``successors``, without the steps that can neither change the state nor settle a claim."""
         wanted = [
             number
             for number, instance in enumerate(self.instances)

@@ -1,4 +1,4 @@
-"""Which parameters and bound variables an expression leaves open: what must be known before it can be grounded."""
+"""Which parameters and variables an expression leaves open: what must be known to ground it."""
 
 from __future__ import annotations
 

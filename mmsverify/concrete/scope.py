@@ -1,4 +1,4 @@
-"""A finite world for a model: how many things of each kind there are, what they are called, what is fixed about them.
+"""A finite world for a model: how many things of each kind, what they are called, what is fixed about them.
 
 The concrete readers enumerate; a scope is what makes that finite. Nothing here knows rows or states.
 """
@@ -31,10 +31,11 @@ Scenario = Callable[[Mapping[str, int], Mapping[str, Any]], Any]
 
 @dataclass(frozen=True, slots=True)
 class Scope:
-    """The elements of each sort (by the sort's short name), facts about rigid or initial cells, bounds of open integers.
+    """The elements of each sort (by its short name), facts about rigid or initial cells, bounds of integers.
 
-    A fact may give a member of an enumeration or the word that the member prints. ``int_bounds`` (both inclusive)
-    stand where a sort states no bound of its own: a step to a value outside is cut, and the reader says so.
+    A fact may give a member of an enumeration or the word that the member prints. ``int_bounds`` (both
+    inclusive) stand where a sort states no bound of its own: a step to a value outside is cut, and the
+    reader says so.
     """
 
     elements: Mapping[str, tuple[str, ...]]
@@ -70,7 +71,7 @@ class Scope:
             yield signature.name, tuple(map(str, names))
 
     def bindings(self, row: Row) -> Iterator[dict[str, Binding]]:
-        """All ways to give values to the parameters of a row; absence comes first, sets grow in binary order."""
+        """All ways to give values to a row's parameters; absence comes first, sets grow in binary order."""
         choices = [self.parameter_values(row, parameter) for parameter in row.parameters]
         for values in product(*choices):
             yield dict(zip((p.name for p in row.parameters), values, strict=True))
@@ -91,13 +92,13 @@ class Scope:
 
 
 def known_facts(model: ModelData, scope: Scope) -> dict[CellKey, Value]:
-    """The facts of a scope as values of the model; :class:`UsageError` for a cell or a value that there is not."""
+    """The facts of a scope as values of the model; :class:`UsageError` for an unknown cell or value."""
     facts: dict[CellKey, Value] = {}
     for key, given in scope.facts.items():
         signature = model.signatures.get(key[0])
         if signature is None or key not in set(scope.cells(signature)):
-            raise UsageError(f"a fact about {cell_name(key)}, which is no cell of {model.name} in scope {scope}",
-                             cure="name a variable and elements of the scope")  # fmt: skip
+            cause = f"a fact about {cell_name(key)}, which is no cell of {model.name} in scope {scope}"
+            raise UsageError(cause, cure="name a variable and elements of the scope")
         facts[key] = _value(given, signature.of, scope, key)
     return facts
 
@@ -118,7 +119,7 @@ def cell_name(key: CellKey) -> str:
 
 
 def generic_scope(model: ModelData, sizes: Mapping[str, int]) -> Scope:
-    """A scope without facts, elements named after their sort: ``PI1``, ``PI2``; a sort without a size has one element."""
+    """A scope without facts; elements are called ``PI1``, ``PI2``; a sort without a size has one."""
     return Scope(
         {
             s.short: tuple(f"{s.short}{i + 1}" for i in range(sizes.get(s.short, 1)))

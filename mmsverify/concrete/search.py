@@ -1,7 +1,7 @@
 """Breadth-first search of the reachable states: every claim checked on the way, shortest paths first.
 
-It counts states, and steps that change the state. Incomplete never looks like complete: ``exhausted`` is true only if
-every state of the scope was seen and nothing was cut.
+It counts states, and steps that change the state. Incomplete never looks like complete: ``exhausted`` is
+true only if every state of the scope was seen and nothing was cut.
 """
 
 from __future__ import annotations
@@ -26,9 +26,10 @@ from mmsverify.model.rows import Claim
 class SearchResult:
     """What a search saw.
 
-    ``states`` counts distinct states (with symmetry: of representatives), ``transitions`` the steps that change the
-    state, ``depth`` the steps to the farthest state. ``cut`` tells that a step left the bounds of an integer.
-    ``violations`` and ``witnesses`` map names of claims to shortest paths. ``reason`` says why the search ended.
+    ``states`` counts distinct states (with symmetry: of representatives), ``transitions`` the steps that
+    change the state, ``depth`` the steps to the farthest state. ``cut`` tells that a step left the bounds
+    of an integer. ``violations`` and ``witnesses`` map names of claims to shortest paths. ``reason`` says
+    why the search ended.
     """
 
     states: int
@@ -53,10 +54,11 @@ def search(
     symmetry: bool = False,
     machine: Machine | None = None,
 ) -> SearchResult:
-    """Explore the states of a model in a scope and check ``claims`` (all of the model's where none are named).
+    """Explore the states of a model in a scope and check ``claims`` (where none are named, all).
 
-    It ends early once every claim is settled (violated, or witnessed); with ``claims=()`` it only counts. With
-    ``symmetry`` states that differ by an exchange of like elements count once; the verdicts are the same.
+    It ends early once every claim is settled (violated, or witnessed); with ``claims=()`` it only counts.
+    With ``symmetry`` states that differ by an exchange of like elements count once; the verdicts are the
+    same.
     """
     machine = machine or Machine(model, scope)
     run = _Search(
@@ -89,7 +91,7 @@ class _Limits:
 
 
 class _Search:
-    """One run: the states seen in order of discovery, each with its predecessor and the instance that led to it."""
+    """One run: the states seen in order of discovery, each with its predecessor."""
 
     def __init__(self, machine: Machine, symmetry: Symmetry | None, claims: Sequence[Claim]) -> None:
         self.machine = machine
@@ -201,9 +203,10 @@ class _Search:
         why = reason or ("" if start.complete else "more initial states than the limit")
         why = why or ("an integer left its bounds" if self.cut else "")
         return SearchResult(
-            states=len(self.states), transitions=self.transitions, depth=self.depth, exhausted=not why, cut=self.cut,
-            violations={name: path for name, path in paths.items() if self.found[name][0].kind != "sometimes"},
-            witnesses={name: path for name, path in paths.items() if self.found[name][0].kind == "sometimes"},
+            states=len(self.states), transitions=self.transitions, depth=self.depth,
+            exhausted=not why, cut=self.cut,
+            violations={n: path for n, path in paths.items() if self.found[n][0].kind != "sometimes"},
+            witnesses={n: path for n, path in paths.items() if self.found[n][0].kind == "sometimes"},
             seconds=self.limits.elapsed, reason=why,
         )  # fmt: skip
 

@@ -1,7 +1,7 @@
 """Ground formulas as Python source over ``s``, the packed state, and ``t``, the state after a step.
 
-A formula that grows long becomes a function of its own, so that shared parts are written once and no line grows
-beyond what Python parses. Nothing here runs.
+A formula that grows long becomes a function of its own, so that shared parts are written once and no line
+grows beyond what Python parses. Nothing here runs.
 """
 
 from __future__ import annotations

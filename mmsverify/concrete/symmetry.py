@@ -1,9 +1,10 @@
-"""Like elements are exchangeable: one representative for all states that differ only in which of them is which.
+"""Like elements are exchangeable: one representative for states that differ only in which is which.
 
-The language has no names of single elements, so only facts tell elements apart: elements that facts treat alike may be
-exchanged. A representative has them sorted by what the state says of each; ties are broken by the least packed state,
-where there are few. A representative is always an exchange of its state, hence verdicts are the same; that two like
-states get the same representative is not promised where ties are many, and costs only time.
+The language has no names of single elements, so only facts tell elements apart: elements that facts treat
+alike may be exchanged. A representative has them sorted by what the state says of each; ties are broken by
+the least packed state, where there are few. A representative is always an exchange of its state, hence
+verdicts are the same; that two like states get the same representative is not promised where ties are many,
+and costs only time.
 """
 
 from __future__ import annotations
@@ -85,7 +86,7 @@ class _Group:
         self._orders: dict[Order, Callable[[State], State]] = {}
 
     def _readers(self, name: str) -> list[Callable[[State], Any]]:
-        """Functions of a state that together say what it holds of one element, whatever the others are called."""
+        """Functions of a state that together say what it holds of one element, whatever others are called."""
         places: dict[tuple[str, tuple[bool, ...]], list[int]] = {}
         for i, (variable, args) in enumerate(self.layout.keys):
             sorts = self.layout.model.signatures[variable].sorts

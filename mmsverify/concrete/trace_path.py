@@ -1,4 +1,4 @@
-"""Paths: a run of a model from an initial state, as rows with their parameters and states in the model's words.
+"""Paths: a run of a model from an initial state, as rows with parameters and states in the model's words.
 
 Only the making and the printing of paths; judging one is ``judge``'s.
 """
@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
 from typing import Any
 
@@ -22,7 +23,7 @@ from mmsverify.results import PathStep
 
 @dataclass(frozen=True, slots=True)
 class Taken:
-    """One step: the row, its parameters by name, the state after it. The first of a path has no row: the initial state."""
+    """One step: the row, its parameters by name, the state after it. The first of a path has no row."""
 
     row: Row | None
     bindings: Mapping[str, Binding]
@@ -40,11 +41,11 @@ class Retrace:
         self.canonical = canonical
 
     def path(self, trail: Sequence[State], settled: Claim | None) -> Path:
-        """The path along representatives ``trail``; then, for a claim about steps, one step that settles it."""
+        """The path along representatives ``trail``; then, for a claim about steps, a step that settles it."""
         state = next(s for s in self.machine.start.states if self.canonical(s) == trail[0])
         path = [Taken(None, {}, self.machine.layout.read(state))]
         for wanted in trail[1:]:
-            number, state = self._step(state, lambda _, after, wanted=wanted: self.canonical(after) == wanted)  # type: ignore[misc]
+            number, state = self._step(state, partial(self._leads_to, wanted))
             path.append(self._taken(number, state))
         if settled is not None:
             number, after = self._step(state, self._settles(settled, state))
@@ -57,6 +58,9 @@ class Retrace:
             for n, after in self.machine.successors(state)
             if after is not None and wanted(n, after)
         )
+
+    def _leads_to(self, wanted: State, _number: int, after: State) -> bool:
+        return self.canonical(after) == wanted
 
     def _settles(self, claim: Claim, state: State) -> Callable[[int, State], bool]:
         check, compiled = self.machine.check, self.machine.step_predicate

@@ -1,7 +1,8 @@
-"""Guards that share conjuncts, arranged so that a shared one is tested once: a tree of tests with instances as leaves.
+"""Guards that share conjuncts, arranged so that a shared one is tested once: a tree with instances as leaves.
 
-A literal is a formula and whether it must hold. The test that most instances want comes first; those that want its
-negation go under its other branch. Ties fall to the older formula, so that the tree is the same in every run.
+A literal is a formula and whether it must hold. The test that most instances want comes first; those that
+want its negation go under its other branch. Ties fall to the older formula, so that the tree is the same in
+every run.
 """
 
 from __future__ import annotations
