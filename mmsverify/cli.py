@@ -17,6 +17,7 @@ from mmsverify import __version__
 from mmsverify.commands.audit import audit
 from mmsverify.commands.check import check
 from mmsverify.commands.diagram import diagram
+from mmsverify.commands.imports import import_
 from mmsverify.errors import MmsverifyError
 from mmsverify.report.wording import printable
 
@@ -38,6 +39,7 @@ app = typer.Typer(
 )
 app.command("check")(check)
 app.command("audit")(audit)
+app.command("import")(import_)
 app.command("diagram")(diagram)
 
 

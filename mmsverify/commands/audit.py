@@ -9,7 +9,7 @@ import typer
 
 from mmsverify.commands.options import Output, Profile, Quiet, Variant
 from mmsverify.commands.output import emit, progress, remark, require_writable
-from mmsverify.commands.paths import trace_paths
+from mmsverify.commands.paths import input_paths
 from mmsverify.errors import InputError, UsageError
 from mmsverify.report import AUDIT_FORMATS, render_audit, require_format
 from mmsverify.results import Audit
@@ -41,7 +41,7 @@ def audit(
     Exit status: 0 no error-level violation, 1 at least one, 2 bad request or nothing could be read.
     """
     require_format(format, AUDIT_FORMATS)
-    paths = trace_paths(traces)
+    paths = input_paths(traces)
     require_writable(output, paths)
     if annotate is not None:
         _require_one(annotate, paths)

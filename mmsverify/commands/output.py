@@ -42,6 +42,21 @@ def emit(text: str, output: Path | None) -> None:
         raise InputError(f"cannot be written: {error.strerror}", place=str(output)) from error
 
 
+@contextmanager
+def replacing(output: Path) -> Iterator[Path]:
+    """A path to write a file to; at the end it becomes ``output``, after a failure nothing is left of it."""
+    if os.path.exists(output) and not output.is_file():  # a device or a pipe cannot be replaced
+        yield output
+        return
+    part = output.with_name(f"{output.name}.part")
+    try:
+        yield part
+        os.replace(part, output)
+    except BaseException:
+        part.unlink(missing_ok=True)
+        raise
+
+
 def _print(text: str) -> None:
     """Print and flush; a reader that stops reading (``| head``) changes nothing about the exit status."""
     stream = sys.stdout

@@ -1,4 +1,4 @@
-"""Traces as the command line names them: files, folders (searched for ``*.mcap``) and glob patterns."""
+"""Inputs as the command line names them: files, folders (searched by suffix) and glob patterns."""
 
 from __future__ import annotations
 
@@ -7,18 +7,20 @@ import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-SUFFIX = ".mcap"
+TRACES = (".mcap",)
+CAPTURES = (".pcap", ".pcapng", ".cap", ".csv")
 
 
-def trace_paths(arguments: Iterable[str]) -> list[Path]:
-    """The traces meant, in the order given, folders and patterns in alphabetical order, each once.
+def input_paths(arguments: Iterable[str], suffixes: tuple[str, ...] = TRACES) -> list[Path]:
+    """The files meant, in the order given, folders and patterns in alphabetical order, each once.
 
-    An argument that leads to no trace stays as it is: whoever opens it says what is wrong with it.
+    Of a folder, the files with one of ``suffixes`` at any depth. An argument that leads to no file stays as
+    it is: whoever opens it says what is wrong with it.
     """
-    return list(dict.fromkeys(path for argument in arguments for path in _meant(argument)))
+    return list(dict.fromkeys(path for argument in arguments for path in _meant(argument, suffixes)))
 
 
-def _meant(argument: str) -> Iterator[Path]:
+def _meant(argument: str, suffixes: tuple[str, ...]) -> Iterator[Path]:
     # Most shells expand patterns themselves; a quoted one they leave to us. A file whose name happens to hold
     # a bracket is that file.
     if not os.path.lexists(argument) and any(mark in argument for mark in "*?["):
@@ -26,11 +28,11 @@ def _meant(argument: str) -> Iterator[Path]:
     else:
         matches = []
     for match in matches or [argument]:
-        yield from _inside(Path(match))
+        yield from _inside(Path(match), suffixes)
 
 
-def _inside(path: Path) -> list[Path]:
+def _inside(path: Path, suffixes: tuple[str, ...]) -> list[Path]:
     if not os.path.isdir(path):
         return [path]
     found = (Path(folder, name) for folder, _, names in os.walk(path) for name in names)
-    return sorted(trace for trace in found if trace.suffix.lower() == SUFFIX) or [path]
+    return sorted(file for file in found if file.suffix.lower() in suffixes) or [path]

@@ -19,10 +19,19 @@ from mmsverify.report import (
     audit_text,
     check_json,
     check_text,
+    imports,
 )
 from mmsverify.results import Audit, ModelCheck
 
-__all__ = ["AUDIT_FORMATS", "CHECK_FORMATS", "render_audit", "render_check", "require_format"]
+__all__ = [
+    "AUDIT_FORMATS",
+    "CHECK_FORMATS",
+    "IMPORT_FORMATS",
+    "render_audit",
+    "render_check",
+    "render_import",
+    "require_format",
+]
 
 AUDIT_FORMATS: Mapping[str, Callable[[Audit], str]] = {
     "text": audit_text.render,
@@ -37,6 +46,11 @@ CHECK_FORMATS: Mapping[str, Callable[[Sequence[ModelCheck]], str]] = {
     "json": check_json.render,
 }
 
+IMPORT_FORMATS: Mapping[str, Callable[[Sequence[imports.Imported]], str]] = {
+    "text": imports.render_text,
+    "json": imports.render_json,
+}
+
 
 def render_audit(audit: Audit, format: str) -> str:
     """The audit in ``format``, a key of ``AUDIT_FORMATS``; the text ends with a line feed."""
@@ -46,6 +60,11 @@ def render_audit(audit: Audit, format: str) -> str:
 def render_check(checks: Sequence[ModelCheck], format: str) -> str:
     """The verdicts in ``format``, a key of ``CHECK_FORMATS``; the text ends with a line feed."""
     return CHECK_FORMATS[require_format(format, CHECK_FORMATS)](checks)
+
+
+def render_import(inputs: Sequence[imports.Imported], format: str) -> str:
+    """What an import read in ``format``, a key of ``IMPORT_FORMATS``; the text ends with a line feed."""
+    return IMPORT_FORMATS[require_format(format, IMPORT_FORMATS)](inputs)
 
 
 def require_format(format: str, known: Mapping[str, object] | Sequence[str]) -> str:
