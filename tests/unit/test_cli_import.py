@@ -1,4 +1,4 @@
-"""``mmsverify import``: what it passes on, prints and leaves behind. The reader of captures is replaced here."""
+"""``mmsverify import``: what it passes on, prints and leaves behind. The capture reader is replaced here."""
 
 from __future__ import annotations
 
