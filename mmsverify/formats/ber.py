@@ -17,6 +17,7 @@ CONSTRUCTED = 0x20
 
 _VISIBLE = re.compile(rb"[\x20-\x7e]*\Z")
 _GRAPHIC = re.compile(rb"[\x1b\x20-\x7e\xa0-\xff]*\Z")
+_CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")
 _TIME = re.compile(r"\d{10}(\d{2}(\d{2})?)?([.,]\d+)?(Z|[+-]\d{2}(\d{2})?)?\Z")
 _ARC_LIMIT = 1 << 128
 
@@ -173,11 +174,14 @@ def read_visible(octets: bytes, begin: int, end: int) -> str:
 
 
 def read_utf8(octets: bytes, begin: int, end: int) -> str:
-    """UTF8String."""
+    """UTF8String; of the control characters only those that a text has."""
     try:
-        return octets[begin:end].decode("utf-8")
+        text = octets[begin:end].decode("utf-8")
     except UnicodeDecodeError as bad:
         raise Fault("a UTF8String that is not UTF-8", begin + bad.start) from None
+    if _CONTROL.search(text):
+        raise Fault("a UTF8String with a control character", begin)
+    return text
 
 
 def read_graphic(octets: bytes, begin: int, end: int) -> str:

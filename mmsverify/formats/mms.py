@@ -8,7 +8,7 @@ returns a `Pdu` or raises `DecodeError`. What a message means is not decided her
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, NamedTuple
@@ -24,6 +24,7 @@ __all__ = [
     "EncodeError",
     "ErrorCause",
     "Pdu",
+    "bit_string",
     "bits",
     "decode",
     "encode",
@@ -75,6 +76,11 @@ class ErrorCause(NamedTuple):
 @cache
 def _schema() -> Schema:
     return Schema.of_folder(asn1_dir())
+
+
+@cache
+def _names(type_name: str) -> dict[int, str]:
+    return _schema().names(type_name)
 
 
 @cache
@@ -131,18 +137,23 @@ def locate(octets: bytes, path: Sequence[str]) -> tuple[int, int] | None:
 
 def named(type_name: str, value: int) -> str:
     """The name of a number (``ProgramInvocationState``, 3: ``running``); its digits where it has none."""
-    return _schema().names(type_name).get(value, str(value))
+    return _names(type_name).get(value, str(value))
 
 
 def number(type_name: str, name: str) -> int:
     """The number of a name in ``type_name``; a `KeyError` where the type does not have it."""
-    return {label: value for value, label in _schema().names(type_name).items()}[name]
+    return {label: value for value, label in _names(type_name).items()}[name]
 
 
 def bits(type_name: str, value: str) -> frozenset[str]:
     """The names of the bits that are set in a bit string of ``type_name``; unnamed bits by their number."""
-    names = _schema().names(type_name)
-    return frozenset(names.get(index, str(index)) for index, bit in enumerate(value) if bit == "1")
+    return frozenset(named(type_name, index) for index, bit in enumerate(value) if bit == "1")
+
+
+def bit_string(type_name: str, names: Iterable[str], size: int = 0) -> str:
+    """The bit string of ``type_name`` with the named bits set, at least ``size`` bits long."""
+    places = {number(type_name, name) for name in names}
+    return "".join("01"[index in places] for index in range(max(size, *(place + 1 for place in places), 0)))
 
 
 def error_class_code(body: Mapping[str, Any]) -> ErrorCause:

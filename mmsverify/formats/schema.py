@@ -76,7 +76,7 @@ class Schema:
 
     def __init__(self, texts: Iterable[str]) -> None:
         text = "\n".join(texts)
-        modules: Mapping[str, Tree] = asn1tools.parse_string(text)
+        modules = _parsed(text)
         self._choice_defaults = {name: (name, int(value)) for name, value in _CHOICE_DEFAULT.findall(text)}
         self._also: Tree = modules[ALSO_READ]["types"] if ALSO_READ in modules else {}
         self._trees: Tree = {}
@@ -176,6 +176,14 @@ class Schema:
         if written in self._choice_defaults:
             return self._choice_defaults[written]
         raise SchemaError(f"the default {written} is not understood", place=place)
+
+
+def _parsed(text: str) -> Mapping[str, Tree]:
+    try:
+        modules: Mapping[str, Tree] = asn1tools.parse_string(text)
+    except (asn1tools.ParseError, ValueError) as bad:
+        raise SchemaError(f"the ASN.1 text cannot be parsed: {bad}") from None
+    return modules
 
 
 def _identifier(tag: Tag) -> int:

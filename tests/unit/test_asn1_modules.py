@@ -1,0 +1,113 @@
+"""The ASN.1 modules as texts: they import what they use, agree, and another tool reads them alike."""
+
+from __future__ import annotations
+
+import re
+from typing import Any
+
+import annex_a
+import asn1tools
+import pytest
+
+from mmsverify.formats.codec import Choice
+from mmsverify.formats.mms import decode, encode
+from mmsverify.formats.schema import ALSO_READ, Schema, SchemaError
+from mmsverify.resources import asn1_dir
+
+PATHS = sorted(asn1_dir().glob("*.asn"))
+TEXTS = {path.name: path.read_text(encoding="utf-8") for path in PATHS}
+MODULES: dict[str, Any] = asn1tools.parse_files([str(path) for path in PATHS])
+SCHEMA = Schema.of_folder(asn1_dir())
+HEADER = "Try DEFINITIONS IMPLICIT TAGS ::= BEGIN\n"
+
+
+def references(tree: Any) -> set[str]:
+    """The type names in a parse tree that asn1tools does not know as built in."""
+    if isinstance(tree, dict):
+        own = {tree["type"]} if isinstance(tree.get("type"), str) else set()
+        return own.union(*map(references, tree.values()))
+    if isinstance(tree, list):
+        return set().union(*map(references, tree))
+    return set()
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_a_module_imports_what_it_uses_and_nothing_else(name: str) -> None:
+    module = MODULES[name]
+    imported = {one for names in module["imports"].values() for one in names}
+    known = {one for other in MODULES.values() for one in other["types"]}
+    assert references(module["types"]) & known - module["types"].keys() == imported
+    for home, names in module["imports"].items():
+        assert set(names) <= MODULES[home]["types"].keys()
+
+
+def test_every_type_is_used() -> None:
+    used = set().union(*(references(module["types"]) for module in MODULES.values()))
+    defined = {name for module in MODULES.values() for name in module["types"]}
+    assert defined - used == {"MMSpdu"}
+
+
+def test_every_form_that_is_only_read_stands_beside_a_type() -> None:
+    main = {name for home, module in MODULES.items() if home != ALSO_READ for name in module["types"]}
+    assert MODULES[ALSO_READ]["types"].keys() <= main
+
+
+def test_the_tags_of_the_services_are_the_bits_of_the_support_options() -> None:
+    bits = SCHEMA.names("ServiceSupportOptions")
+    for name in ("ConfirmedServiceRequest", "ConfirmedServiceResponse"):
+        members = MODULES["MMS-Services"]["types"][name]["members"]
+        assert {one["tag"]["number"]: one["name"] for one in members[:-1]} == {n: bits[n] for n in range(78)}
+        assert (members[-1]["name"], members[-1]["tag"]["number"]) == ("additionalService", 78)
+
+
+@pytest.mark.parametrize("detail", ["CS-Request-Detail", "CS-Response-Detail"])
+def test_a_detail_has_the_tag_of_its_service(detail: str) -> None:
+    kind, services = (
+        SCHEMA.type(detail),
+        SCHEMA.type(detail.replace("CS-", "ConfirmedService").removesuffix("-Detail")),
+    )
+    assert isinstance(kind, Choice)
+    assert isinstance(services, Choice)
+    for name, one in kind.alternatives.items():
+        assert set(map(tag, one.readers)) == set(map(tag, services.alternatives[name].readers))
+
+
+def tag(head: int) -> int:
+    """Identifier octets without the constructed bit."""
+    return head & ~(0x2000 if head > 0xFF else 0x20)
+
+
+def one_module() -> str:
+    """All modules but the forms only read as one, for a compiler that types across modules overtax."""
+    text = "".join(text for name, text in TEXTS.items() if name != "mms-also-read.asn")
+    bodies = re.sub(r"--.*|^[\w-]+ DEFINITIONS.*|IMPORTS [^;]*;|^END$", "", text, flags=re.M)
+    return f"{HEADER}{re.sub(r'DEFAULT cycleCount : 1', 'OPTIONAL', bodies)}END"
+
+
+def test_another_decoder_reads_annex_a_as_this_one_does() -> None:
+    other = asn1tools.compile_string(one_module(), "ber")
+    for _, pdu in annex_a.conversation():
+        kind, content = other.decode("MMSpdu", encode(pdu))
+        assert kind == pdu.kind
+        assert decode(bytes(other.encode("MMSpdu", (kind, content)))) == pdu
+
+
+@pytest.mark.parametrize(
+    ("body", "cause"),
+    [
+        ("A ::= [0] B B ::= CHOICE { x [0] NULL, y [1] NULL }", "implicit tag over a CHOICE"),
+        ("A ::= CHOICE { x [0] NULL, y [0] BOOLEAN }", "x and y have the same tag"),
+        ("A ::= SEQUENCE { x [0] Missing }", "no module defines"),
+        ("A ::= SEQUENCE { x [0] INTEGER DEFAULT five }", "cannot be parsed: .*five"),
+    ],
+)
+def test_a_module_that_cannot_be_right_is_refused(body: str, cause: str) -> None:
+    with pytest.raises(SchemaError, match=cause):
+        Schema([f"{HEADER}{body}\nEND"]).type("A")
+
+
+def test_modules_must_agree_on_tags_and_names() -> None:
+    with pytest.raises(SchemaError, match="IMPLICIT TAGS"):
+        Schema(["Try DEFINITIONS ::= BEGIN A ::= NULL END"])
+    with pytest.raises(SchemaError, match="second type"):
+        Schema([HEADER + "A ::= NULL END", HEADER.replace("Try", "Again") + "A ::= NULL END"])
