@@ -101,7 +101,7 @@ def _given(at: Moment, name: str) -> Value | None:
 
 
 def _subset(at: Moment, name: str) -> frozenset[str]:
-    found = at.bindings[name]
+    found = at.bindings[name] or frozenset()
     assert isinstance(found, frozenset)
     return found
 
@@ -115,7 +115,12 @@ def _cell(expr: ex.Cell, at: Moment) -> Value | None:
 
 def _fact(fact: str, at: Moment) -> str:
     assert at.row is not None, "a fact about a step where there is none"
-    return {"answer": at.row.answer, "service": at.row.on.service, "name": at.row.name}[fact]
+    return row_facts(at.row)[fact]
+
+
+def row_facts(row: Row) -> dict[str, str]:
+    """What a claim about steps may ask of the row that makes the step."""
+    return {"answer": row.answer, "service": row.on.service, "phase": row.on.phase, "name": row.name}
 
 
 def _sum(left: Value | None, right: Value | None, factor: int) -> int | None:

@@ -10,10 +10,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 
-from mmsverify.concrete.evaluate import absent_value
+from mmsverify.concrete.evaluate import absent_value, row_facts
 from mmsverify.concrete.formulas import FALSE, TRUE, Formulas, Node
 from mmsverify.concrete.layout import Layout
-from mmsverify.concrete.names import conjuncts, free_names
+from mmsverify.concrete.names import check_names, conjuncts, free_names
 from mmsverify.concrete.scope import Binding, is_boolean
 from mmsverify.model import expr as ex
 from mmsverify.model.declare import Assign
@@ -30,7 +30,7 @@ Env = Mapping[str, Code]
 
 @dataclass(frozen=True, slots=True)
 class Instance:
-    """One row with one value for each parameter: the conjuncts of its guard, the value of each written position."""
+    """One row with one value for each parameter: its guard, the new value of each written position."""
 
     row: Row
     codes: tuple[Code, ...]
@@ -93,7 +93,7 @@ class Grounding:
             case ex.Cell(variable, args, of, after):
                 return self._at(args, env, of, lambda codes: self._cell(variable, codes, after))
             case ex.Member(name, element):
-                held = env[name]
+                held = env[name] or frozenset()
                 assert isinstance(held, frozenset)
                 return self._at((element,), env, BOOL, lambda codes: int(codes[0] in held))
             case ex.Present(name):
@@ -172,6 +172,7 @@ class Grounding:
 
     def instances(self, row: Row) -> Iterator[Instance]:
         """The instances of a row whose guard is not false on its face, in the order of the values."""
+        check_names(row)
         pending = [part for conjunct in row.guard for part in conjuncts(conjunct.condition)]
         yield from self._instances(row, 0, {}, pending, ())
 
@@ -242,7 +243,7 @@ class Grounding:
 
 def settled_facts(facts: Sequence[ex.RowFact], row: Row) -> Callable[[Node], int | None]:
     """The change of a two-state claim that settles what it says of the row."""
-    told = {"answer": row.answer, "service": row.on.service, "name": row.name}
+    told = row_facts(row)
 
     def atom(node: Node) -> int | None:
         if node.op != "fact":

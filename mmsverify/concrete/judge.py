@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from mmsverify.concrete.evaluate import Moment, Valuation, holds, step, within_bounds
 from mmsverify.concrete.machine import speaks_of_steps
+from mmsverify.concrete.names import free_names
 from mmsverify.concrete.scope import Scope, cell_name, known_facts
 from mmsverify.concrete.trace_path import Path
 from mmsverify.errors import MmsverifyError
@@ -65,7 +66,8 @@ def _shows(scope: Scope, path: Path, claim: Claim) -> bool:
     if speaks_of_steps(claim):
         if len(path) < 2:
             return False
-        at = Moment(scope, path[-2].state, {}, path[-1].state, path[-1].row)
+        named = {**dict.fromkeys(free_names(claim.formula)), **path[-1].bindings}
+        at = Moment(scope, path[-2].state, named, path[-1].state, path[-1].row)
     else:
         at = Moment(scope, path[-1].state, {})
     return holds(claim.formula, at) is (claim.kind == "sometimes")

@@ -17,7 +17,7 @@ State = bytes | tuple[int, ...]
 
 
 class Layout:
-    """The cells of a model in a scope: those in ``fixed`` are constants (codes), the others have a position."""
+    """The cells of a model in a scope: those in ``fixed`` are constants (codes), others have a position."""
 
     def __init__(self, model: ModelData, scope: Scope, fixed: Mapping[CellKey, int] | None = None) -> None:
         self.model = model

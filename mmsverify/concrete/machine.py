@@ -17,7 +17,7 @@ from mmsverify.concrete.compile import (
     compile_successors,
 )
 from mmsverify.concrete.formulas import FALSE, Formulas, Node
-from mmsverify.concrete.ground import Grounding, Instance, settled_facts
+from mmsverify.concrete.ground import Env, Grounding, Instance, settled_facts
 from mmsverify.concrete.initial import Start, initial_states, settled_rigid_cells
 from mmsverify.concrete.layout import Layout
 from mmsverify.concrete.scope import Scope
@@ -65,13 +65,16 @@ class Machine:
         return compile_successors(self.layout, self.formulas, self.instances, range(len(self.instances)))
 
     def moves(self, steps: Sequence[Claim]) -> Successors:
-        """Like ``successors``, without the steps that can neither change the state nor settle a claim."""
-        wanted = [
-            number
-            for number, instance in enumerate(self.instances)
-            if instance.writes or any(self.check(claim, number) != FALSE for claim in steps)
-        ]
-        return compile_successors(self.layout, self.formulas, self.instances, wanted)
+        """Like ``successors``, without steps that can neither change the state nor settle one of these claims.
+
+        Of instances that differ only in parameters on which neither guard nor effect depends, one stands for all.
+        """
+        wanted: dict[object, int] = {}
+        for number, instance in enumerate(self.instances):
+            checks = tuple(self.check(claim, number) for claim in steps)
+            if instance.writes or any(check != FALSE for check in checks):
+                wanted.setdefault((instance.guard, instance.writes, checks), number)
+        return compile_successors(self.layout, self.formulas, self.instances, wanted.values())
 
     def check(self, claim: Claim, number: int) -> int:
         """The formula that tells whether a step of one instance settles a claim about steps."""
@@ -79,15 +82,18 @@ class Machine:
         if found is None:
             instance = self.instances[number]
             row, written = instance.row, frozenset(position for position, _ in instance.writes)
-            whole = self.grounding.formula(self._event(claim), {})
+            whole = self.grounding.formula(*self._event(claim, instance))
             atom = settled_facts(self.grounding.facts, row)
             settled = self.formulas.rebuilt(whole, atom, self._memo((row.answer, row.on.service, row.name)))
             found = self.formulas.rebuilt(settled, _Kept(self.formulas, written), self._memo(written))
             self._checks[claim.name, number] = found
         return found
 
-    def _event(self, claim: Claim) -> Expr:
-        return self._events.setdefault(claim.name, event(claim))
+    def _event(self, claim: Claim, instance: Instance) -> tuple[Expr, Env]:
+        """What settles the claim, and the row's parameters that it names; one that the row has not is absent."""
+        expr = self._events.setdefault(claim.name, event(claim))
+        given = dict(zip((p.name for p in instance.row.parameters), instance.codes, strict=True))
+        return expr, {name: given.get(name) for name in self.grounding.free(expr)}
 
     def _memo(self, key: object) -> dict[int, int]:
         return self._memos.setdefault(key, {})
