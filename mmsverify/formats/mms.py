@@ -180,6 +180,8 @@ def _read(walk: Walk) -> tuple[str, Any]:
 def _pdu(kind: str, content: Any, remarks: tuple[str, ...]) -> Pdu:
     if kind in _WITH_SERVICE:
         service, body = companion.plain_service(content["service"])
+        if body == {} and kind == "confirmed-ResponsePDU":
+            remarks = (*remarks, f"{service}: an empty element stands where a result must")
         return Pdu(
             kind,
             content.get("invokeID"),

@@ -54,27 +54,26 @@ def test_every_form_that_is_only_read_stands_beside_a_type() -> None:
 
 def test_the_tags_of_the_services_are_the_bits_of_the_support_options() -> None:
     bits = SCHEMA.names("ServiceSupportOptions")
-    for name in ("ConfirmedServiceRequest", "ConfirmedServiceResponse"):
-        members = MODULES["MMS-Services"]["types"][name]["members"]
-        assert {one["tag"]["number"]: one["name"] for one in members[:-1]} == {n: bits[n] for n in range(78)}
-        assert (members[-1]["name"], members[-1]["tag"]["number"]) == ("additionalService", 78)
+    for sort in ("Request", "Response"):
+        kind = SCHEMA.type(f"ConfirmedService{sort}")
+        assert isinstance(kind, Choice)
+        tags = {number(head): name for name, one in kind.alternatives.items() for head in one.readers}
+        assert tags == {bit: bits[bit] for bit in range(78)} | {78: "additionalService"}
+
+
+def number(head: int) -> int:
+    """The tag number in identifier octets."""
+    return head & 0x7F if head > 0xFF else head & 0x1F
 
 
 @pytest.mark.parametrize("detail", ["CS-Request-Detail", "CS-Response-Detail"])
 def test_a_detail_has_the_tag_of_its_service(detail: str) -> None:
-    kind, services = (
-        SCHEMA.type(detail),
-        SCHEMA.type(detail.replace("CS-", "ConfirmedService").removesuffix("-Detail")),
-    )
+    kind = SCHEMA.type(detail)
+    services = SCHEMA.type(detail.replace("CS-", "ConfirmedService").removesuffix("-Detail"))
     assert isinstance(kind, Choice)
     assert isinstance(services, Choice)
     for name, one in kind.alternatives.items():
-        assert set(map(tag, one.readers)) == set(map(tag, services.alternatives[name].readers))
-
-
-def tag(head: int) -> int:
-    """Identifier octets without the constructed bit."""
-    return head & ~(0x2000 if head > 0xFF else 0x20)
+        assert {*map(number, one.readers)} == {*map(number, services.alternatives[name].readers)}
 
 
 def one_module() -> str:

@@ -163,6 +163,17 @@ def test_a_null_in_constructed_form_is_read_with_a_remark() -> None:
     assert not pdu("A106 020101 9F2900").remarks
 
 
+@pytest.mark.parametrize(
+    ("octets", "body"),
+    [("A105 020101 B300", ("noResult", None)), ("A105 020101 A600", {})],
+)
+def test_an_empty_result_is_read_with_a_remark(octets: str, body: Any) -> None:
+    answer = pdu(octets)
+    assert answer.body == body
+    assert "empty element" in answer.remarks[0]
+    assert decode(encode(answer)).body == body
+
+
 def test_numbers_and_bits_have_the_names_of_the_standard() -> None:
     assert mms.named("ProgramInvocationState", 3) == "running"
     assert mms.named("ProgramInvocationState", 77) == "77"
