@@ -152,6 +152,33 @@ def test_a_damaged_chunk_is_an_error_of_one_line(stored: Callable[[bytes], Path]
     assert "\n" not in str(caught.value)
 
 
+@pytest.mark.parametrize("chunking", ["zstd", "unchunked"])
+def test_a_damaged_data_section_is_an_error(stored: Callable[[bytes], Path], chunking: str) -> None:
+    out = io.BytesIO()
+    compression = COMPRESSION.get(chunking, CompressionType.NONE)
+    writer = Writer(out, compression=compression, use_chunking=chunking != "unchunked", enable_data_crcs=True)
+    writer.start()
+    writer.add_message(writer.register_channel("/odd", "who-knows", 0), 5, b"message", 5)
+    writer.add_metadata("note", {"key": "value"})
+    writer.finish()  # type: ignore[no-untyped-call]
+    assert len(list(read_trace(stored(out.getvalue())))) == 1
+    with pytest.raises(InputError, match="CRC"):
+        read_trace(stored(out.getvalue().replace(b"value", b"volue")))
+
+
+def test_chunks_that_lie_about_their_times_are_sorted_or_refused(
+    stored: Callable[[bytes], Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    content = recording(list(range(60)), "none", bare=True)
+    true, lie = struct.pack("<QQ", 13, 20), struct.pack("<QQ", 100, 120)
+    assert content.count(true) == 1
+    trace = read_trace(stored(content.replace(true, lie)))
+    assert numbers(list(trace)) == list(range(60))
+    monkeypatch.setattr(mcap_module, "_SMALL", 0)
+    with pytest.raises(InputError, match="before the time that it claims"):
+        list(trace)
+
+
 def chunk(
     data: bytes, compression: bytes = b"", *, size: int | None = None, claimed: int | None = None
 ) -> bytes:
