@@ -158,7 +158,7 @@ class CorePart(Model):
         motion().becomes(False).when(arm[p]),
     ])  # fmt: skip
     end = Transition(
-        "C-end", on=internal("end", p), when=[state[p] == RUNNING], then=unlink_ended, local=True
+        "C-end", on=internal("end", p), when=[state[p] == RUNNING], then=unlink_ended
     )  # fmt: skip
 
     p1 = Always("C-P1", for_all(a, b, c)((controls[a, c] & controls[b, c]) >> (a == b)))
@@ -197,6 +197,6 @@ class RepairedMotion(
 
     end = Transition(
         "C-end", on=internal("end", p), when=[state[p] == RUNNING],
-        then=[*unlink_ended, motion().becomes(False).when(arm[p])], local=True,
+        then=[*unlink_ended, motion().becomes(False).when(arm[p])],
         repairs=repaired("RP-core-2", "C-end", because="the arm would stay enabled without a program"),
     )  # fmt: skip

@@ -201,7 +201,10 @@ class Grounding:
             return
         if parameter.name in row.on.optional:
             yield None
-        yield from self.codes(parameter.of)
+        tried = self.layout.scope.tried.get(parameter.of.name)
+        yield from (
+            self.codes(parameter.of) if tried is None else (self._code_of(parameter.of, v) for v in tried)
+        )
 
     def _writes(self, row: Row, env: Env) -> tuple[tuple[int, int], ...]:
         new: dict[int, int] = {}

@@ -20,10 +20,11 @@ from mmsverify.concrete.formulas import FALSE, Formulas, Node
 from mmsverify.concrete.ground import Env, Grounding, Instance, settled_facts
 from mmsverify.concrete.initial import Start, initial_states, settled_rigid_cells
 from mmsverify.concrete.layout import Layout
-from mmsverify.concrete.scope import Scope
-from mmsverify.model.expr import Cell, Expr, RowFact, negation, walk
+from mmsverify.concrete.scope import CellKey, Scope
+from mmsverify.model.expr import Cell, Expr, Ref, RowFact, negation, walk
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Claim
+from mmsverify.model.sorts import Sort
 
 
 def speaks_of_steps(claim: Claim) -> bool:
@@ -65,16 +66,28 @@ class Machine:
         return compile_successors(self.layout, self.formulas, self.instances, range(len(self.instances)))
 
     def moves(self, steps: Sequence[Claim]) -> Successors:
-        """Like ``successors``, without steps that can neither change the state nor settle one of these claims.
+        """Like ``successors``, without steps that neither change the state nor settle one of these claims.
 
-        Of instances that differ only in parameters on which neither guard nor effect depends, one stands for all.
+        Of instances with one effect that settle the same, those stand for all whose guards are weakest.
         """
-        wanted: dict[object, int] = {}
+        alike: dict[object, list[int]] = {}
         for number, instance in enumerate(self.instances):
             checks = tuple(self.check(claim, number) for claim in steps)
             if instance.writes or any(check != FALSE for check in checks):
-                wanted.setdefault((instance.guard, instance.writes, checks), number)
-        return compile_successors(self.layout, self.formulas, self.instances, wanted.values())
+                alike.setdefault((instance.writes, checks), []).append(number)
+        wanted = (number for numbers in alike.values() for number in self._weakest(numbers))
+        return compile_successors(self.layout, self.formulas, self.instances, wanted)
+
+    def _weakest(self, numbers: Sequence[int]) -> list[int]:
+        """The instances whose guard no other one's guard is a part of."""
+        kept: list[tuple[frozenset[int], int]] = []
+        for guard, number in sorted(
+            ((frozenset(self.instances[n].guard), n) for n in numbers),
+            key=lambda item: (len(item[0]), item[1]),
+        ):
+            if not any(weaker <= guard for weaker, _ in kept):
+                kept.append((guard, number))
+        return [number for _, number in kept]
 
     def check(self, claim: Claim, number: int) -> int:
         """The formula that tells whether a step of one instance settles a claim about steps."""
@@ -90,7 +103,7 @@ class Machine:
         return found
 
     def _event(self, claim: Claim, instance: Instance) -> tuple[Expr, Env]:
-        """What settles the claim, and the row's parameters that it names; one that the row has not is absent."""
+        """What settles the claim, and the row's parameters that it names; one the row has not is absent."""
         expr = self._events.setdefault(claim.name, event(claim))
         given = dict(zip((p.name for p in instance.row.parameters), instance.codes, strict=True))
         return expr, {name: given.get(name) for name in self.grounding.free(expr)}
@@ -101,6 +114,28 @@ class Machine:
     def predicate(self, formula: Expr) -> Predicate:
         """A closed one-state formula as a function of a packed state."""
         return compile_predicate(self.formulas, self.grounding.formula(formula, {}))
+
+    def readings(self, name: str) -> list[tuple[CellKey, Predicate]]:
+        """A variable or definition at all its arguments: each with the function from a state to its code."""
+        parameters = self._parameters(name)
+        refs = tuple(Ref(f"at{i}", sort) for i, sort in enumerate(parameters))
+        expr = self.model.define(name, *refs)
+        found = []
+        for env in self.grounding.extensions(refs, {}):
+            args = tuple(str(self.layout.value(ref.of, int(env[ref.name]))) for ref in refs)  # type: ignore[arg-type]
+            found.append(((name, args), compile_predicate(self.formulas, self.grounding.formula(expr, env))))
+        return found
+
+    def sort_of(self, name: str) -> Sort:
+        """The sort of the values of a variable or definition."""
+        if name in self.model.definitions:
+            return self.model.definitions[name][1].sort
+        return self.model.signatures[name].of
+
+    def _parameters(self, name: str) -> tuple[Sort, ...]:
+        if name in self.model.definitions:
+            return tuple(ref.of for ref in self.model.definitions[name][0])
+        return self.model.signatures[name].sorts
 
     def step_predicate(self, formula: int) -> TwoStatePredicate:
         """A ground two-state formula as a function of a state and the next one."""

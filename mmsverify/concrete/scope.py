@@ -35,12 +35,14 @@ class Scope:
 
     A fact may give a member of an enumeration or the word that the member prints. ``int_bounds`` (both
     inclusive) stand where a sort states no bound of its own: a step to a value outside is cut, and the
-    reader says so.
+    reader says so. ``tried`` names, for an enumeration, the members that a parameter takes; all where it does
+    not say.
     """
 
     elements: Mapping[str, tuple[str, ...]]
     facts: Mapping[CellKey, Value] = field(default_factory=dict)
     int_bounds: tuple[int, int] = (0, 3)
+    tried: Mapping[str, tuple[Enumeration, ...]] = field(default_factory=dict)
 
     def names(self, sort: ElementSort) -> tuple[str, ...]:
         """The names of the elements of a sort; :class:`UsageError` if there are none."""
@@ -85,7 +87,7 @@ class Scope:
                 for bits in range(1 << len(names))
             )
         absent: tuple[Binding, ...] = (None,) if parameter.name in row.on.optional else ()
-        return absent + self.values(parameter.of)
+        return absent + self.tried.get(parameter.of.name, self.values(parameter.of))
 
     def __str__(self) -> str:
         return ", ".join(f"{sort}={len(names)}" for sort, names in self.elements.items())

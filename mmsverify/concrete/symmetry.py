@@ -93,7 +93,9 @@ class _Group:
             mine = tuple(a == name and s == self.sort for a, s in zip(args, sorts, strict=True))
             if any(mine):
                 places.setdefault((variable, mine), []).append(i)
-        return [itemgetter(*found) if len(found) == 1 else _multiset(found) for found in places.values()]
+        return [  # in one order for every element, so that their profiles can be compared
+            itemgetter(*found) if len(found) == 1 else _multiset(found) for _, found in sorted(places.items())
+        ]
 
     def sorted(self, state: State) -> State:
         """The state with the group's elements in order."""
