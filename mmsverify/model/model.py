@@ -209,7 +209,7 @@ def _expanded_row(row: Row, definitions: Definitions) -> Row:
         type(a)(a.variable, a.args, expand(a.value, definitions), a.bound, expand(a.where, definitions), a.place) for a in row.assigns
     )
     guard = tuple(_expanded(c, definitions) for c in row.guard)
-    return Row(row.name, row.on, guard, assigns, row.answer, row.clause, row.choices, row.step, row.explains, row.local, row.place)
+    return Row(row.name, row.on, guard, assigns, row.answer, row.clause, row.choices, row.step, row.explains, row.never_after, row.place)
 
 
 def _claims(declared: Mapping[str, Declared], definitions: Definitions) -> Iterator[Claim]:

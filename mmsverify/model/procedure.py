@@ -52,7 +52,7 @@ class Transition(RowSource):
         then: Sequence[Assign] = (),
         answer: str = "",
         observation_only: bool = False,
-        local: bool = False,
+        never_after: Sequence[str] = (),
         repairs: Repair | None = None,
     ) -> None:
         self.place = caller()
@@ -60,7 +60,7 @@ class Transition(RowSource):
             raise mistake("a row without a clause", "cite the statement that it encodes: Transition('R-...', ...)", self.place)
         check_distinct(then, self.place)
         self.clause = Clause.of(*clauses)
-        self.on, self.then, self.answer, self.local = on, tuple(then), answer, local
+        self.on, self.then, self.answer, self.never_after = on, tuple(then), answer, tuple(never_after)
         self.guard = tuple(c if isinstance(c, Conjunct) else Conjunct(formula(c), self.clause) for c in when)
         self.observation_only = observation_only
         self.repairs = repairs
@@ -68,7 +68,7 @@ class Transition(RowSource):
     def rows(self) -> Iterator[Row]:
         yield Row(
             self.name, self.on, self.guard, self.then, self.answer, self.clause,
-            explains="observation" if self.observation_only else "any", local=self.local, place=self.place,
+            explains="observation" if self.observation_only else "any", never_after=self.never_after, place=self.place,
         )  # fmt: skip
 
 

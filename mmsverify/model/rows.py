@@ -66,7 +66,8 @@ class Row:
     """One way to answer an event: if all conjuncts hold, the assignments are made and ``answer`` is given.
 
     ``choices`` are parameters that no event shows (free choices of the responder). ``explains`` restricts an internal row to
-    the kind of evidence that it may explain: any, or an observed state only.
+    the kind of evidence that it may explain: any, or an observed state only. ``never_after`` names internal rows after
+    which it does not fire before the next event.
     """
 
     name: str
@@ -78,7 +79,7 @@ class Row:
     choices: tuple[Ref | SetOf, ...] = ()
     step: str = ""
     explains: Literal["any", "observation"] = "any"
-    local: bool = False
+    never_after: tuple[str, ...] = ()
     place: str = field(default="", compare=False)
 
     @property

@@ -47,6 +47,3 @@ class PropertiesRepaired(Properties, VocabularyRepaired):
 
     motion_needs_selected = Always("R-6.3.4.5-2", motion() >> for_all(a)(selected[a] >> started[a]), "RP-07",
                                    repairs=repaired("RP-07", "R-6.3.4.5-2", because="no motion of a task program that has not been started"))  # fmt: skip
-    arm_of_motion_is_led = Always(
-        "R-6.3.4.5-1", for_all(c)((motion() & arm[c] & (control[c] == Control.CONTROLLED) & runs[c]) >> for_some(a)(controller[c, a] & selected[a])),
-        repairs=repaired("RP-19", "R-6.3.4.5-1", because="motion outside figure 8"))  # fmt: skip

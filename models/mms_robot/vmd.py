@@ -153,6 +153,7 @@ class VmdRepaired(Vmd, VocabularyRepaired):
             .over(p).when(exists[p]),
         ],
         observation_only=True,
+        never_after=["emergency_stop"],
         repairs=repaired("RP-12", "R-5.3.1.3.2.6-2", because="the robot state follows from what the operator leaves"),
     )  # fmt: skip
 

@@ -1,0 +1,269 @@
+"""The belief about one device: all states that some run of the model may have reached, given the events so far.
+
+After each event the belief is the set of partial states that agree with it; it is empty only if no run of the model
+shows these events, and only then a violation is told. Then it starts again from every state that agrees with what
+was observed: with the effects of the observed answer, or without them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from mmsverify.concrete.belief.act import Refusal, settle, take, update
+from mmsverify.concrete.belief.blame import Blame, blame
+from mmsverify.concrete.belief.constraints import Conflict, Constraints
+from mmsverify.concrete.belief.internal import Goal, Outstanding, Unseen, decided, undecided
+from mmsverify.concrete.belief.partial import Key, Partial, World, distinct
+from mmsverify.concrete.belief.truth import ABSENT, Env
+from mmsverify.concrete.belief.values import NO, YES, exactly
+from mmsverify.model.model import ModelData
+from mmsverify.model.rows import MINUS, PLUS, Row
+from mmsverify.model.sorts import ElementSort, Enumeration
+
+LARGEST_BELIEF = 300
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What became of an event: a violation or none, and the cells that it changed."""
+
+    blame: Blame | None = None
+    written: frozenset[Key] = frozenset()
+
+
+@dataclass(slots=True)
+class _Watch:
+    """An observation that has been asked for: the beliefs since then, for it may show any of these instants."""
+
+    earlier: list[list[Partial]] = field(default_factory=list)
+
+
+class Belief:
+    """What is known about one device under one model. ``facts`` are what a profile fixes, by variable and names."""
+
+    def __init__(self, model: ModelData, facts: Mapping[Key, Any] | None = None) -> None:
+        self.model = model
+        self.world = World(model)
+        claims = [(c.formula, c.clause) for c in model.always] + [(a.condition, a.clause) for a in model.assumptions]
+        self.constraints = Constraints(self.world, claims)
+        self.unseen = Unseen(model, self.constraints)
+        self.states: list[Partial] = [Partial(self.world, {})]
+        self.widened = False
+        self._rows: dict[tuple[str, str], tuple[Row, ...]] = {}
+        for row in model.rows:
+            self._rows[row.on.phase, row.on.service] = (*self._rows.get((row.on.phase, row.on.service), ()), row)
+        self._outstanding: dict[str, Outstanding] = {}
+        self._watches: dict[str, _Watch] = {}
+        self._know(facts or {})
+
+    def _know(self, facts: Mapping[Key, Any]) -> None:
+        for (variable, args), given in sorted(facts.items(), key=lambda item: item[0]):
+            for sort, name in zip(self.model.signatures[variable].sorts, args, strict=True):
+                assert isinstance(sort, ElementSort)
+                self.see(sort, name)
+            self.states = [state.put((variable, args), exactly(given)) for state in self.states]
+        self.states = [s for s in map(self.constraints.everywhere, self.states) if not isinstance(s, Conflict)]
+
+    def see(self, sort: ElementSort, name: str) -> None:
+        """A name has been seen in the recording."""
+        if self.world.known(sort, name):
+            return
+        self.world.names[sort.name].append(name)
+        self.constraints.forget()
+        self.unseen.forget()
+        self.states = [state.meets(name, sort) for state in self.states]
+        for watch in self._watches.values():
+            watch.earlier = [[state.meets(name, sort) for state in states] for states in watch.earlier]
+
+    def environment(self, phase: str, service: str, bindings: Mapping[str, Any]) -> dict[str, Any]:
+        """The values of an event's parameters as the readers take them; its names are seen."""
+        for row in self._rows.get((phase, service), ()):
+            for parameter in row.on.parameters:
+                self._see_all(parameter.of, bindings.get(parameter.name))
+        return {name: _given(value) for name, value in bindings.items()}
+
+    def _see_all(self, sort: object, given: Any) -> None:
+        if isinstance(sort, ElementSort) and given is not None:
+            for name in [given] if isinstance(given, str) else sorted(given):
+                self.see(sort, name)
+
+    # Events.
+
+    def indicate(self, slot: str, service: str, bindings: Mapping[str, Any]) -> None:
+        """A request arrives: the transient state is entered, where the model has one, and it is outstanding from now on."""
+        env = self.environment("indication", service, bindings)
+        env |= self.environment("response", service, bindings)
+        rows = self._rows.get(("indication", service), ())
+        if rows:
+            ready = self.unseen.before(self.states, "answer", self._others(slot))
+            self._become([after for state in ready for after in self._indicated(rows, state, env)])
+        if ("response", service) in self._rows:
+            self._outstanding[slot] = Outstanding(slot, self._rows["response", service], env)
+
+    def _indicated(self, rows: Sequence[Row], state: Partial, env: Env) -> list[Partial]:
+        """The state after the row that applies, or unchanged where none does."""
+        from mmsverify.concrete.belief.narrow import narrowing
+
+        result = [after for row in rows for after in take(row, state, env, self.constraints)[0]]
+        rest = [state]
+        for row in rows:
+            rest = [left for before in rest for left in narrowing(row.guard_formula, False)(before, env, True)]
+        return result + rest
+
+    def respond(self, slot: str, service: str, bindings: Mapping[str, Any], answer: str, *, local: bool = False) -> Outcome:
+        """The responder answers. ``local`` says that a result(-) names a local reason, which needs no explanation."""
+        env = self.environment("response", service, bindings)
+        self._outstanding.pop(slot, None)
+        self._remember()
+        rows = [row for row in self._rows.get(("response", service), ()) if row.answer == answer]
+        ready = self.unseen.before(self.states, "answer", self._others(slot))
+        before = self.states
+        after, refusals = self._answered(rows, ready, env, slot, answer)
+        if after:
+            return self._become(after, before)
+        self.states = [undecided(state, slot) for state in before]
+        forced = self._forced(rows, self.states, env)
+        if local and answer == MINUS:
+            return self._become(forced or self.states, before)
+        return self._violated(rows, ready, refusals, env, (PLUS if answer == MINUS else MINUS,), [*forced, *self.states])
+
+    def _answered(self, rows: Sequence[Row], ready: Sequence[Partial], env: Env, slot: str, answer: str) -> tuple[list[Partial], list[Refusal]]:
+        after: list[Partial] = []
+        refusals: list[Refusal] = []
+        for state in ready:
+            early = decided(state, slot)
+            if early is not None:
+                after += [undecided(state, slot)] if early == answer else []
+                continue
+            for row in rows:
+                done, refused = take(row, state, env, self.constraints)
+                after += done
+                refusals += refused
+        return after, refusals
+
+    def watch(self, slot: str) -> None:
+        """State is asked for: the answer may show it at any instant from now on."""
+        self._watches[slot] = _Watch()
+
+    def show(self, service: str, bindings: Mapping[str, Any], slot: str | None = None) -> Outcome:
+        """A message shows state, at some instant since it was asked for."""
+        env = self.environment("shown", service, bindings)
+        watch = self._watches.pop(slot, None) if slot is not None else None
+        before = self.states
+        rows = self._rows.get(("shown", service), ())
+        for row in rows:
+            ready = self.unseen.before(self.states, "observation", self._outstanding, Goal(row, env))
+            agreeing, refusals = self._agreeing(row, ready, env)
+            if watch is not None and any(self._agreed(row, states, env) for states in watch.earlier):
+                continue  # it may show an earlier instant, and then says nothing about this one
+            if not agreeing:
+                return self._violated([row], ready, refusals, env, (), self._after_contradiction(row, env))
+            self._become(agreeing)
+        return Outcome(written=_changed(before, self.states))
+
+    def _agreed(self, row: Row, states: list[Partial], env: Env) -> bool:
+        return bool(self._agreeing(row, self.unseen.before(states, "observation", {}, Goal(row, env)), env)[0])
+
+    def _agreeing(self, row: Row, ready: Sequence[Partial], env: Env) -> tuple[list[Partial], list[Refusal]]:
+        after: list[Partial] = []
+        refusals: list[Refusal] = []
+        for state in ready:
+            done, refused = take(row, state, env, self.constraints)
+            after += done
+            refusals += refused
+        return after, refusals
+
+    def lose_sight(self) -> None:
+        """Messages may be missing: nothing that can change is known any more."""
+        rigid = {name for name, s in self.model.signatures.items() if s.rigid}
+        self.states = distinct(Partial(s.world, {k: v for k, v in s.cells.items() if k[0] in rigid}) for s in self.states)
+        self.states = [s for s in map(self.constraints.everywhere, self.states) if not isinstance(s, Conflict)]
+
+    def drop(self, slot: str) -> None:
+        """A request will not be answered any more; whether it was performed is not known."""
+        outstanding = self._outstanding.pop(slot, None)
+        self._watches.pop(slot, None)
+        if outstanding is not None:
+            extra = [after for state in self.states for row in outstanding.rows for after in take(row, state, outstanding.env, self.constraints)[0]]
+            self._become([undecided(s, slot) for s in [*self.states, *extra]])
+
+    # The set of states.
+
+    def _others(self, slot: str) -> dict[str, Outstanding]:
+        return {other: request for other, request in self._outstanding.items() if other != slot}
+
+    def _remember(self) -> None:
+        for watch in self._watches.values():
+            if not watch.earlier or watch.earlier[-1] is not self.states:
+                watch.earlier.append(self.states)
+
+    def _become(self, states: Iterable[Partial], before: Sequence[Partial] | None = None) -> Outcome:
+        kept = distinct(states)
+        if len(kept) > LARGEST_BELIEF:
+            self.widened = True
+            kept = _widened(kept)
+        self.states = kept
+        return Outcome(written=_changed(before, kept) if before is not None else frozenset())
+
+    def _forced(self, rows: Sequence[Row], states: Sequence[Partial], env: Env) -> list[Partial]:
+        """The effects of the observed answer, its guards ignored."""
+        forced = []
+        for row in rows[:1] if rows and rows[0].answer == MINUS else rows:
+            for state in states:
+                after = update(row.assigns, state, env)
+                found = settle(state, after, self.constraints)
+                forced.append(self._without_names(after, env) if isinstance(found, Conflict) else found)
+        return forced
+
+    def _without_names(self, state: Partial, env: Env) -> Partial:
+        """The state with nothing known of the names in the event, and of what belongs to no name."""
+        names = {n for given in env.values() for n in ([given] if isinstance(given, str) else given if isinstance(given, frozenset) else ())}
+        rigid = {name for name, s in self.model.signatures.items() if s.rigid}
+        gone = [k for k in state.cells if k[0] not in rigid and (not k[1] or names.intersection(k[1]))]
+        found = self.constraints.everywhere(state.without(gone))
+        return state.forget(frozenset(self.world.full) - rigid) if isinstance(found, Conflict) else found
+
+    def _after_contradiction(self, row: Row, env: Env) -> list[Partial]:
+        """Either the message lies, and the belief stands; or it tells the truth, and what it shows must be learned anew."""
+        rigid = {name for name, s in self.model.signatures.items() if s.rigid}
+        learned: list[Partial] = []
+        for state in self.states[:8]:
+            blank = self.constraints.everywhere(state.forget(row.reads - rigid))
+            if not isinstance(blank, Conflict):
+                learned += take(row, blank, env, self.constraints)[0]
+        return [*self.states, *learned]
+
+    def _violated(
+        self, rows: Sequence[Row], ready: Sequence[Partial], refusals: Sequence[Refusal], env: Env, expected: tuple[str, ...], then: list[Partial]
+    ) -> Outcome:
+        before = self.states
+        found = blame(self.model, ready or before, rows, refusals, env, expected) if rows else None
+        self._become(then or before)
+        return Outcome(found, _changed(before, self.states))
+
+
+def _given(value: Any) -> Any:
+    if value is None:
+        return ABSENT
+    if isinstance(value, bool):
+        return YES if value else NO
+    if isinstance(value, int | Enumeration):
+        return exactly(value)
+    return value if isinstance(value, str) else frozenset(value)
+
+
+def _widened(states: list[Partial]) -> list[Partial]:
+    """Neighbours joined until few enough are left: more is allowed than before, never less."""
+    while len(states) > LARGEST_BELIEF // 2:
+        states = distinct(a if b is a else a.joined(b) for a, b in zip(states[::2], [*states[1::2], states[-1]], strict=False))
+    return states
+
+
+def _changed(before: Sequence[Partial], after: Sequence[Partial]) -> frozenset[Key]:
+    old = before[0].cells if before else {}
+    new = after[0].cells if after else {}
+    return frozenset(k for k in {*old, *new} if old.get(k) != new.get(k) and not k[0].startswith("$"))
+
+

@@ -1,0 +1,168 @@
+"""Why an event cannot be: the conjunct that refused, in the state that comes closest, and what was known there."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from mmsverify.concrete.belief.act import Refusal
+from mmsverify.concrete.belief.partial import OTHER, Key, Partial
+from mmsverify.concrete.belief.truth import ABSENT, Env, truth, value
+from mmsverify.concrete.belief.values import NO, Known, join, plain, single
+from mmsverify.model import expr as ex
+from mmsverify.model.expr import Cell, Eq, Ref
+from mmsverify.model.model import ModelData
+from mmsverify.model.rows import Clause, Conjunct, Row
+
+
+@dataclass(frozen=True, slots=True)
+class Blame:
+    """One violation as data: the rule, what it rests on, a sentence about it, and the state before.
+
+    ``reads`` are the cells that the refusing condition reads; the events that last wrote them are the related ones.
+    """
+
+    rule: str
+    level: str
+    clause: Clause
+    says: str
+    expected: tuple[str, ...]
+    before: Mapping[str, Any]
+    reads: frozenset[Key]
+
+
+def blame(
+    model: ModelData, states: Sequence[Partial], rows: Sequence[Row], refusals: Sequence[Refusal], env: Env, expected: tuple[str, ...]
+) -> Blame:
+    """The mildest and most plausible explanation: the state and row with the fewest conditions broken."""
+    best = min((_breach(row, state, env, refusals) for row in rows for state in states), key=_weight)
+    conjunct, invariant, state = best.conjunct, best.invariant, best.state
+    shown = _expected(conjunct, states, env) or expected
+    return Blame(
+        rule=conjunct.rule,
+        level=best.level,
+        clause=conjunct.clause + invariant,
+        says=_sentence(conjunct.says, states, env),
+        expected=shown,
+        before=before(model, states, env),
+        reads=_cells(conjunct, state, env),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class _Breach:
+    conjunct: Conjunct
+    invariant: Clause
+    state: Partial
+    broken: int
+    level: str
+    passed: int
+
+
+def _weight(breach: _Breach) -> tuple[bool, int, int]:
+    return (breach.level == "error", breach.broken, -breach.passed)
+
+
+def _breach(row: Row, state: Partial, env: Env, refusals: Sequence[Refusal]) -> _Breach:
+    """The conditions of the row that are certainly broken in the state, or else the one at which it got stuck."""
+    broken = [(i, c) for i, c in enumerate(row.guard) if truth(c.condition)(state, env) == NO]
+    stuck = [r for r in refusals if r.row is row]
+    invariant = next((r.invariant for r in stuck if r.invariant.ids and not broken), Clause(()))
+    if not broken:
+        where = max(stuck, key=lambda r: r.passed, default=None)
+        broken = [(where.passed, where.conjunct)] if where else [(len(row.guard), row.guard[-1])]
+    errors = [pair for pair in broken if pair[1].level == "error"]
+    passed, conjunct = (errors or broken)[0]
+    return _Breach(conjunct, invariant, state, len(broken), "error" if errors else "warning", passed)
+
+
+def _sentence(says: str, states: Sequence[Partial], env: Env) -> str:
+    """``says`` with its slots filled: parameters of the event, and (by variable name) what the states hold."""
+    words = {name: _word(given) for name, given in env.items()}
+    for variable in states[0].world.full if states else ():
+        words.setdefault(variable, _word(_joined(states, (variable, ()))))
+    return says.format_map(_Words(words))
+
+
+class _Words(dict[str, str]):
+    def __missing__(self, name: str) -> str:
+        return name
+
+
+def _word(given: Any) -> str:
+    if given is ABSENT or given is None:
+        return "none"
+    if isinstance(given, str):
+        return given
+    if isinstance(given, frozenset) and all(isinstance(v, str) for v in given):
+        return ", ".join(sorted(given)) or "nothing"
+    return " or ".join(str(v).upper() if isinstance(v, bool) else str(v) for v in plain(given)) or "unknown"
+
+
+def _expected(conjunct: Conjunct, states: Sequence[Partial], env: Env) -> tuple[str, ...]:
+    """For a shown value: the values that it could have had, as ``attribute=value``."""
+    for node in ex.walk(conjunct.condition):
+        if isinstance(node, Eq) and isinstance(node.right, Ref) and node.right.name.startswith("shown_"):
+            known = None
+            for state in states:
+                found = value(node.left)(state, env)
+                known = found if known is None else join(known, found)
+            listed = plain(known) if known is not None else []
+            return tuple(f"{node.right.name.removeprefix('shown_')}={v}" for v in listed if v not in plain(env[node.right.name]))
+    return ()
+
+
+def _joined(states: Sequence[Partial], key: Key) -> Known:
+    known = states[0].get(key)
+    for state in states[1:]:
+        known = join(known, state.get(key))
+    return known
+
+
+def before(model: ModelData, states: Sequence[Partial], env: Env) -> dict[str, Any]:
+    """The state before the event, by attribute: single cells and definitions, and the cells of the names in the event."""
+    names = {given for given in env.values() if isinstance(given, str)}
+    names |= {n for given in env.values() if isinstance(given, frozenset) for n in given if isinstance(n, str)}
+    shown: dict[str, Any] = {}
+    for key in sorted({key for state in states for key in state.cells}):
+        variable, args = key
+        if variable.startswith("$") or OTHER in args or (args and not names.intersection(args)):
+            continue
+        if variable in model.signatures and not model.signatures[variable].rigid:
+            _put(shown, f"{variable}[{', '.join(args)}]" if args else variable, _joined(states, key), states[0].world.full[variable])
+    for name, (parameters, body) in model.definitions.items():
+        if not parameters and body.sort.name != "Boolean":
+            known = None
+            for state in states:
+                found = value(body)(state, {})
+                known = found if known is None else join(known, found)
+            if known is not None:
+                _put(shown, name, known, None)
+    return dict(sorted(shown.items()))
+
+
+def _put(shown: dict[str, Any], name: str, known: Known, full: Known | None) -> None:
+    if known == full:
+        return
+    listed = plain(known)
+    if len(listed) == 1 and single(known):
+        shown[name] = listed[0]
+    elif listed and len(listed) < 6:
+        shown[name] = {"oneOf": listed}
+
+
+def _cells(conjunct: Conjunct, state: Partial, env: Env) -> frozenset[Key]:
+    """The cells that the condition reads in this environment, bound variables over all known names."""
+    keys: set[Key] = set()
+    for node in ex.walk(conjunct.condition):
+        if isinstance(node, Cell):
+            keys |= set(_instances(node, state, env))
+    return frozenset(keys)
+
+
+def _instances(cell: Cell, state: Partial, env: Env) -> Iterable[Key]:
+    fixed = [env.get(arg.name) if isinstance(arg, Ref) else None for arg in cell.args]
+    for key in state.cells:
+        if key[0] == cell.variable and all(not isinstance(f, str) or f == name for f, name in zip(fixed, key[1], strict=True)):
+            yield key

@@ -1,0 +1,193 @@
+"""What may have happened unseen before an event: internal rows, requests performed early, an operator at the panel.
+
+Each internal row fires at most once for the same names between two events; those that explain an observed state only are left
+out where an answer is to be explained. While somebody at the panel holds control, what the panel can change is not known.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import product
+from typing import Any, Literal
+
+from mmsverify.concrete.belief.act import take
+from mmsverify.concrete.belief.constraints import Conflict, Constraints
+from mmsverify.concrete.belief.partial import OTHER, Partial, distinct
+from mmsverify.concrete.belief.truth import Env, truth
+from mmsverify.concrete.belief.values import NO, YES
+from mmsverify.model.expr import Ref
+from mmsverify.model.model import ModelData
+from mmsverify.model.rows import Row
+from mmsverify.model.sorts import BOOL, ElementSort
+from mmsverify.model.terms import SetOf
+
+Evidence = Literal["answer", "observation"]
+
+Tag = tuple[str, tuple[str, ...]]
+History = frozenset[Tag]
+
+PANEL = "panel"
+LARGEST = 4000
+LARGEST_MEMO = 20000
+
+
+@dataclass(frozen=True, slots=True)
+class Firing:
+    """An internal row with names and truth values for its parameters; rows fire once for the names in ``tag``."""
+
+    row: Row
+    tag: Tag
+    env: Env
+
+
+class Goal:
+    """What an event shows: a row of observation in an environment."""
+
+    def __init__(self, row: Row, env: Env) -> None:
+        self.env = env
+        self.key = (row.id, frozenset((k, v) for k, v in env.items()))
+        self._conditions = [truth(conjunct.condition) for conjunct in row.guard]
+
+    def impossible(self, state: Partial) -> bool:
+        """Whether the state certainly contradicts it."""
+        return any(holds(state, self.env) == NO for holds in self._conditions)
+
+
+@dataclass(frozen=True, slots=True)
+class Outstanding:
+    """A request that has been made and not answered: its responding rows and the environment of its event."""
+
+    slot: str
+    rows: tuple[Row, ...]
+    env: Env
+
+
+def decided(state: Partial, slot: str) -> str | None:
+    """The answer that the responder has already decided on for a request, though no message has shown it yet."""
+    mark = state.cells.get(("$decided", (slot,)))
+    return None if mark is None else next(iter(mark))  # type: ignore[arg-type]
+
+
+def undecided(state: Partial, slot: str) -> Partial:
+    """The state without the mark of that decision."""
+    return state.without([("$decided", (slot,))])
+
+
+@dataclass
+class Unseen:
+    """The internal rows of a model, and the states that they lead to."""
+
+    model: ModelData
+    constraints: Constraints
+    _memo: dict[tuple[Any, ...], list[Partial]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        rows = [row for row in self.model.rows if row.on.phase == "internal"]
+        self._rows = {"answer": [r for r in rows if r.explains == "any"], "observation": rows}
+        panel = [r for r in self.model.rows if any(p.name == PANEL for p in r.on.parameters)]
+        self._panel = frozenset().union(*(r.writes for r in panel)) if panel else frozenset()
+
+    def forget(self) -> None:
+        """Drop what was remembered: a new name has been seen."""
+        self._memo.clear()
+
+    def before(
+        self, states: Sequence[Partial], evidence: Evidence, outstanding: Mapping[str, Outstanding], goal: Goal | None = None
+    ) -> list[Partial]:
+        """All states that may hold when the event comes, those of ``states`` first.
+
+        Given a ``goal`` (what the event shows), states from which it cannot be shown are left out early.
+        """
+        reached: dict[Partial, None] = {}
+        for state in states:
+            reached |= dict.fromkeys(self._remembered(state, evidence, outstanding, goal))
+        return distinct(reached)
+
+    def _remembered(
+        self, state: Partial, evidence: Evidence, outstanding: Mapping[str, Outstanding], goal: Goal | None
+    ) -> list[Partial]:
+        if outstanding:
+            return self._explore(state, evidence, outstanding, goal)
+        key = (state, evidence, goal and goal.key)
+        if key not in self._memo:
+            if len(self._memo) > LARGEST_MEMO:
+                self._memo.clear()
+            self._memo[key] = self._explore(state, evidence, {}, goal)
+        return self._memo[key]
+
+    def _explore(
+        self, start: Partial, evidence: Evidence, outstanding: Mapping[str, Outstanding], goal: Goal | None
+    ) -> list[Partial]:
+        firings = self._firings(start, evidence)
+        if goal is not None and not outstanding:
+            firings = self._useful(start, firings, goal)
+        seen: dict[Partial, None] = {start: None}
+        work: deque[tuple[Partial, History]] = deque([(start, frozenset())])
+        while work and len(seen) < LARGEST:
+            state, history = work.popleft()
+            for tag, after in self._next(state, firings, history, outstanding):
+                if after not in seen and not state.covers(after):
+                    seen[after] = None
+                    work.append((after, history | {tag}))
+        return distinct(seen)
+
+    def _firings(self, state: Partial, evidence: Evidence) -> list[Firing]:
+        return [Firing(row, tag, env) for row in self._rows[evidence] for tag, env in self._bindings(row, state)]
+
+    def _useful(self, state: Partial, firings: Sequence[Firing], goal: Goal) -> list[Firing]:
+        """The firings without those after which, whatever else happens, the goal cannot be shown."""
+        useful = list(firings)
+        for firing in [f for f in firings if not f.tag[1]]:
+            others = [f.row for f in useful if f.row is not firing.row]
+            blurred = state.forget(self._writable(state, others))
+            later = [row for row in others if firing.row.name not in row.never_after]
+            ends = take(firing.row, blurred, firing.env, self.constraints)[0]
+            if all(goal.impossible(end.forget(self._writable(end, later))) for end in ends):
+                useful.remove(firing)
+        return useful
+
+    def _writable(self, state: Partial, rows: Sequence[Row]) -> frozenset[str]:
+        """The variables that the rows may still change, with what somebody at the panel could do meanwhile."""
+        written = frozenset[str]().union(*(row.writes for row in rows))
+        if self._panel and ("local_control" in written or state.get(("local_control", ())) == YES):
+            written |= self._panel
+        return written
+
+    def _next(
+        self, state: Partial, firings: Sequence[Firing], history: History, outstanding: Mapping[str, Outstanding]
+    ) -> Iterator[tuple[Tag, Partial]]:
+        fired = {name for name, _ in history}
+        for firing in firings:
+            if firing.tag not in history and not fired.intersection(firing.row.never_after):
+                for after in take(firing.row, state, firing.env, self.constraints)[0]:
+                    yield firing.tag, after
+        if PANEL not in fired and self._panel and state.get(("local_control", ())) == YES:
+            forgotten = self.constraints.everywhere(state.forget(self._panel))
+            if not isinstance(forgotten, Conflict):
+                yield (PANEL, ()), forgotten
+        for request in outstanding.values():
+            yield from self._performed(request, state)
+
+    def _performed(self, request: Outstanding, state: Partial) -> Iterator[tuple[Tag, Partial]]:
+        """A request may be performed at any instant before its response."""
+        if decided(state, request.slot) is not None:
+            return
+        for row in request.rows:
+            for after in take(row, state, request.env, self.constraints)[0]:
+                yield ("performed", (request.slot,)), after.put(("$decided", (request.slot,)), frozenset([row.answer]))
+
+    def _bindings(self, row: Row, state: Partial) -> Iterator[tuple[Tag, dict[str, Any]]]:
+        """Names for the parameters that are elements, both values for Booleans; any other choice stays open."""
+        ranged: list[tuple[str, tuple[Any, ...]]] = []
+        for parameter in row.parameters:
+            if isinstance(parameter, SetOf):
+                continue
+            if isinstance(parameter.of, ElementSort):
+                ranged.append((parameter.name, tuple(n for n in state.world.names[parameter.of.name] if n != OTHER)))
+            elif parameter.of is BOOL:
+                ranged.append((parameter.name, (NO, YES)))
+        for values in product(*(values for _, values in ranged)):
+            tag = (row.name, tuple(v for v in values if isinstance(v, str)))
+            yield tag, dict(zip((name for name, _ in ranged), values, strict=True))

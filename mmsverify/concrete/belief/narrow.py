@@ -1,0 +1,297 @@
+"""Assuming that a formula holds (or fails): the partial states that remain. None remain only where none is possible.
+
+A conjunct narrows cells without a split. A disjunction with one possible part narrows by it; with a few, it splits in
+order ("the first that holds is the i-th"), n parts for n alternatives; with many, or where splits are not wanted, the state is
+kept as it is, which allows too much but never too little. Of unseen names only what holds for each of them is assumed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+
+from mmsverify.concrete.belief.partial import OTHER, Partial
+from mmsverify.concrete.belief.truth import Env, key_of, truth, value
+from mmsverify.concrete.belief.values import EITHER, NO, YES, Known, above, below, meet, single, without
+from mmsverify.model import expr as ex
+from mmsverify.model.expr import And, Cell, Eq, Expr, Ite, Less, Not, Or, Quantified, Ref
+from mmsverify.model.sorts import BOOL, ElementSort
+
+Narrowing = Callable[[Partial, Env, bool], list[Partial]]
+
+LARGEST_SPLIT = 6
+
+
+@lru_cache(maxsize=None)
+def narrowing(expr: Expr, want: bool) -> Narrowing:
+    """What remains of a state when ``expr`` is assumed to be ``want``; the third argument allows splits."""
+    match expr:
+        case Cell():
+            return _cell(expr, want)
+        case Not(body):
+            return narrowing(body, not want)
+        case And(parts) if want:
+            return _each(tuple(narrowing(part, True) for part in parts))
+        case Or(parts) if not want:
+            return _each(tuple(narrowing(part, False) for part in parts))
+        case And(parts) | Or(parts):
+            return _first(tuple((truth(p), narrowing(p, want), narrowing(p, not want)) for p in parts), want)
+        case Eq(left, right):
+            return _equality(left, right, want)
+        case Less(left, right):
+            return _order(left, right, want)
+        case Quantified(universal):
+            return _every(expr, want) if universal == want else _some(expr, want)
+    return _test(expr, want)
+
+
+def _test(expr: Expr, want: bool) -> Narrowing:
+    """Nothing to narrow: the state stays where the formula may have the wanted value."""
+    holds, wanted = truth(expr), YES if want else NO
+
+    def keep(state: Partial, env: Env, _split: bool) -> list[Partial]:
+        return [state] if holds(state, env) & wanted else []
+
+    return keep
+
+
+def _cell(cell: Cell, want: bool) -> Narrowing:
+    key, mask = key_of(cell), YES if want else NO
+
+    def narrow(state: Partial, env: Env, _split: bool) -> list[Partial]:
+        where = key(env)
+        if where is None:
+            return [] if want else [state]
+        left = state.narrowed(where, mask)
+        return [] if left is None else [left]
+
+    return narrow
+
+
+def _each(parts: tuple[Narrowing, ...]) -> Narrowing:
+    def narrow(state: Partial, env: Env, split: bool) -> list[Partial]:
+        states = [state]
+        for part in parts:
+            states = [after for before in states for after in part(before, env, split)]
+            if not states:
+                break
+        return states
+
+    return narrow
+
+
+def _first(parts: tuple[tuple[Callable[[Partial, Env], int], Narrowing, Narrowing], ...], want: bool) -> Narrowing:
+    """A disjunction (of the parts, or of their negations): the alternatives in order."""
+    good, bad = (YES, NO) if want else (NO, YES)
+
+    def narrow(state: Partial, env: Env, split: bool) -> list[Partial]:
+        possible = []
+        for holds, take, refuse in parts:
+            found = holds(state, env)
+            if found == good:
+                return [state]
+            if found != bad:
+                possible.append((take, refuse))
+        return alternatives(state, env, split, possible)
+
+    return narrow
+
+
+def alternatives(state: Partial, env: Env, split: bool, possible: list[tuple[Narrowing, Narrowing]]) -> list[Partial]:
+    """The states in which the first, or else the second ..., of several formulas holds."""
+    if len(possible) == 1:
+        return possible[0][0](state, env, split)
+    if not possible:
+        return []
+    if not split or len(possible) > LARGEST_SPLIT:
+        return [state]
+    result: list[Partial] = []
+    rest = [state]
+    for take, refuse in possible:
+        result += [after for before in rest for after in take(before, env, split)]
+        rest = [after for before in rest for after in refuse(before, env, False)]
+    return result
+
+
+def _equality(left: Expr, right: Expr, want: bool) -> Narrowing:
+    if isinstance(left.sort, ElementSort):
+        return _test(Eq(left, right), want)
+    if left.sort is BOOL:
+        return _equivalence(left, right, want)
+    if isinstance(left, Ite):
+        return _choice(left, right, want)
+    if isinstance(right, Ite):
+        return _choice(right, left, want)
+    ways = [_value(a, b, want) for a, b in ((left, right), (right, left)) if _is_place(a)]
+    return _each(tuple(ways)) if ways else _test(Eq(left, right), want)
+
+
+def _is_place(expr: Expr) -> bool:
+    return isinstance(expr, Cell | Ref)
+
+
+def _value(place: Expr, other: Expr, want: bool) -> Narrowing:
+    """Narrow a cell (or a free choice) to the values that the other side may have, or away from its only value."""
+    known, key = value(other), _place_key(place)
+    holds = truth(Eq(place, other))
+    now = value(place)
+
+    def narrow(state: Partial, env: Env, _split: bool) -> list[Partial]:
+        where = key(env)
+        if where is None:
+            return [state] if holds(state, env) & (YES if want else NO) else []
+        theirs = known(state, env)
+        if want:
+            return _restricted(state, where, now(state, env), theirs)
+        if not single(theirs):
+            return [state]
+        left = without(now(state, env), theirs)
+        return [] if left is None else [state.put(where, left)]
+
+    return narrow
+
+
+def _restricted(state: Partial, where: tuple[str, tuple[str, ...]], now: Known, theirs: Known) -> list[Partial]:
+    left = meet(now, theirs)
+    if left is None:
+        return []
+    return [state] if left == now else [state.put(where, left)]
+
+
+def _place_key(place: Expr) -> Callable[[Env], tuple[str, tuple[str, ...]] | None]:
+    """The key of a cell; of a parameter that the event does not show, the key of what is found out about it."""
+    if isinstance(place, Cell):
+        return key_of(place)
+    assert isinstance(place, Ref)
+    name, key = place.name, ("$" + place.name, ())
+    return lambda env: None if name in env else key
+
+
+def _equivalence(left: Expr, right: Expr, want: bool) -> Narrowing:
+    """``left`` and ``right`` have one truth value (or two): if either is decided, so is the other."""
+    sides = ((truth(left), narrowing(right, True), narrowing(right, False)), (truth(right), narrowing(left, True), narrowing(left, False)))
+
+    def narrow(state: Partial, env: Env, split: bool) -> list[Partial]:
+        for holds, take, refuse in sides:
+            found = holds(state, env)
+            if found != EITHER:
+                return (take if (found == YES) == want else refuse)(state, env, split)
+        if not split:
+            return [state]
+        true = [b for a in narrowing(left, True)(state, env, split) for b in narrowing(right, want)(a, env, split)]
+        false = [b for a in narrowing(left, False)(state, env, split) for b in narrowing(right, not want)(a, env, split)]
+        return true + false
+
+    return narrow
+
+
+def _choice(choice: Ite, other: Expr, want: bool) -> Narrowing:
+    """An if-then-else compared with a value: the branches that may lead there."""
+    yes, no = narrowing(choice.condition, True), narrowing(choice.condition, False)
+    then, otherwise = narrowing(ex.equal(choice.then, other), want), narrowing(ex.equal(choice.otherwise, other), want)
+    may_then, may_otherwise = truth(ex.equal(choice.then, other)), truth(ex.equal(choice.otherwise, other))
+    wanted = YES if want else NO
+
+    def narrow(state: Partial, env: Env, split: bool) -> list[Partial]:
+        first = may_then(state, env) & wanted
+        second = may_otherwise(state, env) & wanted
+        if first and second and not split:
+            return [state]
+        result: list[Partial] = []
+        if first:
+            result += [b for a in yes(state, env, split) for b in then(a, env, split)]
+        if second:
+            result += [b for a in no(state, env, split) for b in otherwise(a, env, split)]
+        return result
+
+    return narrow
+
+
+def _order(left: Expr, right: Expr, want: bool) -> Narrowing:
+    """``left < right`` (or its contrary): narrows either side by the other's bound."""
+    low, high = value(left), value(right)
+    steps: list[Narrowing] = [_test(Less(left, right), want)]
+    if _is_place(left):
+        steps.append(_bounded(left, lambda s, e: high(s, e)[1] if want else high(s, e)[0], below if want else _from))  # type: ignore[index]
+    if _is_place(right):
+        steps.append(_bounded(right, lambda s, e: low(s, e)[0] if want else low(s, e)[1], above if want else _up_to))  # type: ignore[index]
+    return _each(tuple(steps))
+
+
+def _from(known: tuple[int | None, int | None], limit: int | None) -> tuple[int | None, int | None] | None:
+    return above(known, None if limit is None else limit - 1)
+
+
+def _up_to(known: tuple[int | None, int | None], limit: int | None) -> tuple[int | None, int | None] | None:
+    return below(known, None if limit is None else limit + 1)
+
+
+def _bounded(place: Expr, limit: Callable[[Partial, Env], int | None], cut: Callable[..., Known | None]) -> Narrowing:
+    key, now = _place_key(place), value(place)
+
+    def narrow(state: Partial, env: Env, _split: bool) -> list[Partial]:
+        where = key(env)
+        if where is None:
+            return [state]
+        before = now(state, env)
+        left = cut(before, limit(state, env))
+        return [] if left is None else [state if left == before else state.put(where, left)]
+
+    return narrow
+
+
+def _every(expr: Quantified, want: bool) -> Narrowing:
+    """For all names: assumed of each known one; of the unseen ones only without a split, for they may differ."""
+    names, sorts = tuple(ref.name for ref in expr.bound), tuple(ref.of for ref in expr.bound)
+    assume = narrowing(expr.body, want)
+    holds, wanted = truth(expr.body), YES if want else NO
+
+    def narrow(state: Partial, env: Env, split: bool) -> list[Partial]:
+        states = [state]
+        for combination in state.world.combinations(sorts):  # type: ignore[arg-type]
+            inner = {**env, **dict(zip(names, combination, strict=True))}
+            unseen = OTHER in combination
+            if unseen:
+                states = [after for before in states for after in _of_unseen(before, inner, assume, holds, wanted)]
+            else:
+                states = [after for before in states for after in assume(before, inner, split)]
+        return states
+
+    return narrow
+
+
+def _of_unseen(state: Partial, env: Env, assume: Narrowing, holds: Callable[[Partial, Env], int], wanted: int) -> list[Partial]:
+    if holds(state, env) == wanted:
+        return [state]
+    narrowed = assume(state, env, False)
+    # Where it can hold of no unseen name, there is none: nothing is known of cells that do not exist.
+    return narrowed[:1] if len(narrowed) == 1 else [state]
+
+
+def _some(expr: Quantified, want: bool) -> Narrowing:
+    """For some name: narrowed where only known names come into question."""
+    names, sorts = tuple(ref.name for ref in expr.bound), tuple(ref.of for ref in expr.bound)
+    holds, take, refuse = truth(expr.body), narrowing(expr.body, want), narrowing(expr.body, not want)
+    good, bad = (YES, NO) if want else (NO, YES)
+
+    def narrow(state: Partial, env: Env, split: bool) -> list[Partial]:
+        possible: list[tuple[Narrowing, Narrowing]] = []
+        open_end = False
+        for combination in state.world.combinations(sorts):  # type: ignore[arg-type]
+            inner = {**env, **dict(zip(names, combination, strict=True))}
+            found = holds(state, inner)
+            if OTHER in combination:
+                open_end = open_end or found != bad
+            elif found == good:
+                return [state]
+            elif found != bad:
+                possible.append((_within(take, inner), _within(refuse, inner)))
+        return [state] if open_end else alternatives(state, env, split, possible)
+
+    return narrow
+
+
+def _within(narrow: Narrowing, env: Env) -> Narrowing:
+    return lambda state, _env, split: narrow(state, env, split)
+
+

@@ -1,0 +1,125 @@
+"""Partial states: what is known of the cells of one possible state. A cell that is not listed is not known at all.
+
+Names that the recording has not shown yet share the cells of ``OTHER``: what holds there holds of each of them. When a
+name is first seen, it takes over what is known of ``OTHER``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import product
+
+from mmsverify.concrete.belief.values import Known, everything, join, meet, within
+from mmsverify.model.model import ModelData
+from mmsverify.model.sorts import ElementSort
+
+OTHER = "*"
+
+Key = tuple[str, tuple[str, ...]]
+Cells = Mapping[Key, Known]
+
+
+class World:
+    """What all partial states of one belief share: the model's variables and the names seen so far, by sort."""
+
+    def __init__(self, model: ModelData) -> None:
+        self.model = model
+        self.full: dict[str, Known] = {s.name: everything(s.of) for s in model.signatures.values()}
+        self.names: dict[str, list[str]] = {sort.name: [OTHER] for sort in model.sorts.values()}
+
+    def known(self, sort: ElementSort, name: str) -> bool:
+        """Whether the name has been seen as an element of the sort."""
+        return name in self.names[sort.name]
+
+    def combinations(self, sorts: Iterable[ElementSort]) -> Iterator[tuple[str, ...]]:
+        """All tuples of names of these sorts, ``OTHER`` included."""
+        return product(*(self.names[sort.name] for sort in sorts))
+
+
+class Partial:
+    """One partial state. Never changed once it is made; equal cells make equal states."""
+
+    __slots__ = ("_hash", "cells", "world")
+
+    def __init__(self, world: World, cells: Cells) -> None:
+        self.world = world
+        self.cells = cells
+        self._hash: int | None = None
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Partial) and self.cells == other.cells
+
+    def __hash__(self) -> int:
+        if self._hash is None:
+            self._hash = hash(frozenset(self.cells.items()))
+        return self._hash
+
+    def get(self, key: Key) -> Known:
+        """What is known of a cell."""
+        found = self.cells.get(key)
+        return self.world.full[key[0]] if found is None else found
+
+    def put(self, key: Key, value: Known) -> Partial:
+        """The same state with the cell set to ``value``."""
+        return Partial(self.world, {**self.cells, key: value})
+
+    def narrowed(self, key: Key, value: Known) -> Partial | None:
+        """The same state with the cell restricted to ``value``; ``None`` if nothing is left."""
+        before = self.get(key)
+        now = meet(before, value)
+        if now is None:
+            return None
+        return self if now == before else self.put(key, now)
+
+    def without(self, drop: Iterable[Key]) -> Partial:
+        """The same state with these cells no longer known."""
+        gone = set(drop)
+        return Partial(self.world, {k: v for k, v in self.cells.items() if k not in gone})
+
+    def forget(self, variables: frozenset[str]) -> Partial:
+        """The same state with nothing known of these variables."""
+        return Partial(self.world, {k: v for k, v in self.cells.items() if k[0] not in variables})
+
+    def meets(self, name: str, sort: ElementSort) -> Partial:
+        """The same state once ``name`` has been seen: it takes over what holds of every unseen name."""
+        more = dict(self.cells)
+        for (variable, args), value in self.cells.items():
+            places = _places(self.world.model, variable, args, sort)
+            for chosen in product((False, True), repeat=len(places)):
+                if any(chosen):
+                    more[variable, _renamed(args, places, chosen, name)] = value
+        return Partial(self.world, more)
+
+    def covers(self, other: Partial) -> bool:
+        """Whether every state that ``other`` allows, this one allows."""
+        return all(within(other.get(key), value) for key, value in self.cells.items())
+
+    def joined(self, other: Partial) -> Partial:
+        """A state that allows what either allows."""
+        cells = {k: join(v, other.cells[k]) for k, v in self.cells.items() if k in other.cells}
+        return Partial(self.world, {k: v for k, v in cells.items() if v != self.world.full.get(k[0])})
+
+
+def _places(model: ModelData, variable: str, args: tuple[str, ...], sort: ElementSort) -> list[int]:
+    signature = model.signatures.get(variable)
+    if signature is None:
+        return []
+    return [i for i, arg in enumerate(args) if arg == OTHER and signature.sorts[i].name == sort.name]
+
+
+def _renamed(args: tuple[str, ...], places: list[int], chosen: tuple[bool, ...], name: str) -> tuple[str, ...]:
+    renamed = list(args)
+    for place, take in zip(places, chosen, strict=True):
+        if take:
+            renamed[place] = name
+    return tuple(renamed)
+
+
+def distinct(states: Iterable[Partial]) -> list[Partial]:
+    """The states without those that another one covers, in order."""
+    kept: list[Partial] = []
+    for state in dict.fromkeys(states):
+        if not any(other.covers(state) for other in kept):
+            kept = [other for other in kept if not state.covers(other)]
+            kept.append(state)
+    return kept
