@@ -132,3 +132,14 @@ class Execution(Vocabulary):
             accept("c"),
         ],
     )  # fmt: skip
+
+    alter = Procedure(
+        "R-7.4.5.2",
+        on=response("alterPI", request, user, pi, limit, count),
+        steps=[
+            refuse("a", unless=holder[user], rule="alter.without-control", says="{user} does not hold R_CTRL"),
+            refuse("b", unless=is_controlling, rule="alter.not-controlling", says="{pi} is not CONTROLLING"),
+            do("c1", *set_mode, cites=["R-7.4.5.2-c2", "R-7.4.5.2-c3"]),
+            accept("c1"),
+        ],
+    )  # fmt: skip

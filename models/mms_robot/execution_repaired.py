@@ -1,10 +1,10 @@
 """Starting, stopping, resuming and resetting, repaired: all checks first, motion enabled told, MOTION-PAUSED can be left (7.3.3.3 to 7.3.3.6)."""
 
-from .admission import EVERYTHING, admission
+from .admission import ALL_BUT_RUNNING, EVERYTHING, admission
 from .execution import Execution
 from .vocabulary import Mode, State, VocabularyRepaired
 
-from mmsverify.model import Procedure, Transition, accept, do, for_all, for_some, if_, internal, refuse, repaired, response
+from mmsverify.model import MINUS, Procedure, Transition, accept, do, for_all, for_some, if_, internal, refuse, repaired, response
 
 
 class ExecutionRepaired(Execution, VocabularyRepaired):
@@ -145,3 +145,43 @@ class ExecutionRepaired(Execution, VocabularyRepaired):
         repairs=repaired("RP-07", "R-6.3.5.8-1", "R-7.3.3.6.1-c",
                          because="figure 8 leads from MOTION-PAUSED to READY only, and the arm's program must return with the task program"),
     )  # fmt: skip
+
+    alter = Procedure(
+        "R-7.4.5.2",
+        on=response("alterPI", request, user, panel, pi, limit, count),
+        steps=[
+            *admission("alter", panel, local_control(), logical(), ALL_BUT_RUNNING),
+            refuse("a", unless=holder[user] | panel, rule="alter.without-control", says="{user} does not hold R_CTRL"),
+            refuse("R-7.4.5.1.1.1-1", "RP-14", unless=exists[pi], rule="alter.unknown", says="{pi} does not exist"),
+            refuse("b", unless=is_controlling, rule="alter.not-controlling", says="{pi} is not CONTROLLING"),
+            refuse("R-7.3.3.3.1.4-2", "R-7.3.3.3.1.5-2", "RP-14", when=bad_count, rule="alter.count", level="warning",
+                   says="the count {count} is not positive"),
+            refuse("R-7.4.5.1.1.5-1", when=no_steps, rule="alter.steps-unsupported", says="STEP-LIMITED is not supported"),
+            do("c1", *set_mode, cites=["R-7.4.5.2-c2", "R-7.4.5.2-c3"]),
+            accept("c1"),
+        ],
+        repairs=repaired("RP-14", "R-7.4.5.2-b", because="the text does not say what happens to a name that does not exist or a count that is not positive"),
+    )  # fmt: skip
+
+    # A service that fails for a reason of the controller's own, and says that the program invocation is UNRUNNABLE now.
+    fail = [
+        state[c].becomes(State.STOPPED).over(c).when(selected[pi] & controls[pi, c] & (state[c] == State.RUNNING)),
+        controller[c, a].becomes(False).over(c, a).when(selected[pi] & (a == pi)),
+        controls[a, c].becomes(False).over(a, c).when(selected[pi] & (a == pi)),
+        motion().becomes(False).when(selected[pi] | moves_arm),
+        selected[a].becomes(False).over(a).when(a == pi),
+        state[pi].becomes(State.UNRUNNABLE),
+        entered[request, p].becomes(False).over(p),
+    ]  # fmt: skip
+    start_fails = Transition(
+        "R-7.3.3.3.3-d4", "B-FAIL", on=response("start", request, pi, destructive), when=[destructive, entered[request, pi]], then=fail, answer=MINUS,
+        repairs=repaired("RP-04", "R-7.3.3.3.3-d4", because="a destructive failure of the selected program invocation deselects it"))  # fmt: skip
+    stop_fails = Transition(
+        "R-7.3.3.4.1-a", "B-FAIL", on=response("stop", request, pi, destructive), when=[destructive, entered[request, pi]], then=fail, answer=MINUS,
+        repairs=repaired("RP-04", "R-7.3.3.4.1-a", because="a destructive failure of the selected program invocation deselects it"))  # fmt: skip
+    resume_fails = Transition(
+        "R-7.3.3.5.3-d4", "B-FAIL", on=response("resume", request, pi, destructive), when=[destructive, entered[request, pi]], then=fail, answer=MINUS,
+        repairs=repaired("RP-04", "R-7.3.3.5.3-d4", because="a destructive failure of the selected program invocation deselects it"))  # fmt: skip
+    reset_fails = Transition(
+        "R-7.3.3.6.1-a", "B-FAIL", on=response("reset", request, pi, destructive), when=[destructive, entered[request, pi]], then=fail, answer=MINUS,
+        repairs=repaired("RP-04", "R-7.3.3.6.1-a", because="a destructive failure of the selected program invocation deselects it"))  # fmt: skip

@@ -70,6 +70,7 @@ class Figure8Repaired(Figure8, VocabularyRepaired):
             & service_is("end_of_execution", "kill", "deleteProgramInvocation", "fails_by_itself", "reset"),
             (before == RobotState.MOTION_PAUSED) & (later == RobotState.IDLE) & service_is("deleteProgramInvocation"),
             later.isin([RobotState.IDLE, RobotState.LOADED]) & service_is("vMDReset"),
+            (later == RobotState.LOADED) & service_is("start", "stop", "resume", "reset") & destructive,
         ),
         says="the robot state changes along the arrows of figure 8 and those that RP-20 adds",
         repairs=repaired("RP-20", "R-5.3.1.3.1-0", because="the figure has no arrow for programs that end, are killed or deleted outside EXECUTING"),

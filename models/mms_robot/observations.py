@@ -122,3 +122,10 @@ class Observations(Vocabulary):
         on=shown("R_VLOCAL", shown_local),
         shows=[needs("R-8.5.3.3-1", rule="variable.local-control", that=local_control() == shown_local, says="local control cannot be {shown_local}")],
     )  # fmt: skip
+
+    state_after_failure = Observation(
+        "R-7.3.3.3.3-a", "B-FAIL",
+        on=shown("stateAfterFailure", pi, shown_state),
+        shows=[needs("R-7.3.3.3.3-a", "B-FAIL", rule="failure.state", level="warning", that=state[pi] == shown_state,
+                     says="{pi} cannot be {shown_state} after this failure")],
+    )  # fmt: skip

@@ -114,15 +114,15 @@ class Properties(Vocabulary):
     arm_is_controlled = Always("R-8.3.1-6", for_all(p)(standard_arm[p] >> (control[p] == Control.CONTROLLED)))
     arm_remains = Always("R-8.3.1-3", for_all(p)((standard_arm[p] | calibrates[p]) >> (exists[p] & ~deletable[p])), "R-8.3.2-2")
 
-    # Steps.
+    # Steps. A declared destructive failure (B-FAIL) is no refusal: it has an effect and says so.
     remote_cannot_in_local_control = Step(
-        "R-3.2.1-1", (local_control() & service_is(*BY_MESSAGE) & ~panel) >> unchanged(selected, controls, controller, motion, control, deletable))
+        "R-3.2.1-1", (local_control() & service_is(*BY_MESSAGE) & ~panel & ~destructive) >> unchanged(selected, controls, controller, motion, control, deletable))
     refusal_has_no_effect = Step(
-        "R-7.4.4.2-i", answered(MINUS) >> unchanged(control, deletable, reusable, arm, controls, controller, mode, cycles, steps, selected, motion,
+        "R-7.4.4.2-i", (answered(MINUS) & ~destructive) >> unchanged(control, deletable, reusable, arm, controls, controller, mode, cycles, steps, selected, motion,
                                                    local_control, logical, physical, holder, robot_state),
         "R-7.3.3.3.3-d4", "R-7.3.3.5.3-d4", says="a result(-) has no effect")  # fmt: skip
     refusal_keeps_states = Step(
-        "R-7.3.3.3.3-d4", answered(MINUS) >> for_all(p)(
+        "R-7.3.3.3.3-d4", (answered(MINUS) & ~destructive) >> for_all(p)(
             (state[p].next == state[p]) | state[p].isin([State.STARTING, State.STOPPING, State.RESUMING, State.RESETTING])),
         "R-7.3.3.5.3-d4", says="a result(-) leaves no program invocation in another state, transient ones apart")  # fmt: skip
     intervention_left_by_operator = Step(
