@@ -12,15 +12,16 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from mmsverify.concrete.belief.act import Refusal, settle, take, update
-from mmsverify.concrete.belief.blame import Blame, blame
+from mmsverify.concrete.belief.blame import Blame, before, blame
 from mmsverify.concrete.belief.constraints import Conflict, Constraints
 from mmsverify.concrete.belief.internal import Goal, Outstanding, Unseen, decided, undecided
 from mmsverify.concrete.belief.partial import Key, Partial, World, distinct
-from mmsverify.concrete.belief.truth import ABSENT, Env
-from mmsverify.concrete.belief.values import NO, YES, exactly
+from mmsverify.concrete.belief.truth import ABSENT, Env, value
+from mmsverify.concrete.belief.values import NO, YES, exactly, plain
 from mmsverify.model.model import ModelData
-from mmsverify.model.rows import MINUS, PLUS, Row
-from mmsverify.model.sorts import ElementSort, Enumeration
+from mmsverify.model.rows import MINUS, PLUS, Clause, Row
+from mmsverify.model.expr import Ref
+from mmsverify.model.sorts import ElementSort, Enumeration, EnumSort, Sort
 
 LARGEST_BELIEF = 300
 
@@ -78,11 +79,29 @@ class Belief:
             watch.earlier = [[state.meets(name, sort) for state in states] for states in watch.earlier]
 
     def environment(self, phase: str, service: str, bindings: Mapping[str, Any]) -> dict[str, Any]:
-        """The values of an event's parameters as the readers take them; its names are seen."""
+        """The values of an event's parameters as the readers take them; its names are seen.
+
+        Members of enumerations may be given as the words that they print. Parameters that no row knows are left out.
+        """
+        env: dict[str, Any] = {}
         for row in self._rows.get((phase, service), ()):
             for parameter in row.on.parameters:
-                self._see_all(parameter.of, bindings.get(parameter.name))
-        return {name: _given(value) for name, value in bindings.items()}
+                if parameter.name in bindings and parameter.name not in env:
+                    given = bindings[parameter.name]
+                    self._see_all(parameter.of, given)
+                    env[parameter.name] = _given(given, parameter.of)
+        return env
+
+    def may_be(self, name: str, args: tuple[str, ...], word: str) -> bool:
+        """Whether a variable or definition may have the value that prints as ``word``."""
+        expr = self.model.define(name, *(Ref(arg, sort) for arg, sort in zip(args, self._sorts(name), strict=True)))
+        env = {arg: arg for arg in args}
+        return any(word in map(str, plain(value(expr)(state, env))) for state in self.states)
+
+    def _sorts(self, name: str) -> tuple[Any, ...]:
+        if name in self.model.definitions:
+            return tuple(ref.of for ref in self.model.definitions[name][0])
+        return self.model.signatures[name].sorts
 
     def _see_all(self, sort: object, given: Any) -> None:
         if isinstance(sort, ElementSort) and given is not None:
@@ -119,15 +138,27 @@ class Belief:
         self._remember()
         rows = [row for row in self._rows.get(("response", service), ()) if row.answer == answer]
         ready = self.unseen.before(self.states, "answer", self._others(slot))
-        before = self.states
+        earlier = self.states
         after, refusals = self._answered(rows, ready, env, slot, answer)
         if after:
-            return self._become(after, before)
-        self.states = [undecided(state, slot) for state in before]
+            return self._become(after, earlier)
+        self.states = [undecided(state, slot) for state in earlier]
         forced = self._forced(rows, self.states, env)
         if local and answer == MINUS:
-            return self._become(forced or self.states, before)
-        return self._violated(rows, ready, refusals, env, (PLUS if answer == MINUS else MINUS,), [*forced, *self.states])
+            return self._become(forced or self.states, earlier)
+        if answer == MINUS:
+            return self._refused(service, ready, env, [*forced, *self.states])
+        return self._violated(rows, ready, refusals, env, (MINUS,), [*forced, *self.states])
+
+    def _refused(self, service: str, ready: Sequence[Partial], env: Env, then: list[Partial]) -> Outcome:
+        """A result(-) for which nothing stands: a warning, for the text does not list every reason."""
+        accepting = [row for row in self._rows["response", service] if row.answer == PLUS]
+        clause = Clause(accepting[-1].clause.ids[-1:], accepting[-1].clause.readings[-1:]) if accepting else Clause(())
+        shown = before(self.model, ready or self.states, env)
+        found = Blame(f"{service}.refused", "warning", clause, "nothing stands against it", (PLUS,), shown, frozenset())
+        earlier = self.states
+        self._become(then)
+        return Outcome(found, _changed(earlier, self.states))
 
     def _answered(self, rows: Sequence[Row], ready: Sequence[Partial], env: Env, slot: str, answer: str) -> tuple[list[Partial], list[Refusal]]:
         after: list[Partial] = []
@@ -151,7 +182,7 @@ class Belief:
         """A message shows state, at some instant since it was asked for."""
         env = self.environment("shown", service, bindings)
         watch = self._watches.pop(slot, None) if slot is not None else None
-        before = self.states
+        earlier = self.states
         rows = self._rows.get(("shown", service), ())
         for row in rows:
             ready = self.unseen.before(self.states, "observation", self._outstanding, Goal(row, env))
@@ -161,7 +192,7 @@ class Belief:
             if not agreeing:
                 return self._violated([row], ready, refusals, env, (), self._after_contradiction(row, env))
             self._become(agreeing)
-        return Outcome(written=_changed(before, self.states))
+        return Outcome(written=_changed(earlier, self.states))
 
     def _agreed(self, row: Row, states: list[Partial], env: Env) -> bool:
         return bool(self._agreeing(row, self.unseen.before(states, "observation", {}, Goal(row, env)), env)[0])
@@ -199,13 +230,13 @@ class Belief:
             if not watch.earlier or watch.earlier[-1] is not self.states:
                 watch.earlier.append(self.states)
 
-    def _become(self, states: Iterable[Partial], before: Sequence[Partial] | None = None) -> Outcome:
+    def _become(self, states: Iterable[Partial], earlier: Sequence[Partial] | None = None) -> Outcome:
         kept = distinct(states)
         if len(kept) > LARGEST_BELIEF:
             self.widened = True
             kept = _widened(kept)
         self.states = kept
-        return Outcome(written=_changed(before, kept) if before is not None else frozenset())
+        return Outcome(written=_changed(earlier, kept) if earlier is not None else frozenset())
 
     def _forced(self, rows: Sequence[Row], states: Sequence[Partial], env: Env) -> list[Partial]:
         """The effects of the observed answer, its guards ignored."""
@@ -238,20 +269,22 @@ class Belief:
     def _violated(
         self, rows: Sequence[Row], ready: Sequence[Partial], refusals: Sequence[Refusal], env: Env, expected: tuple[str, ...], then: list[Partial]
     ) -> Outcome:
-        before = self.states
-        found = blame(self.model, ready or before, rows, refusals, env, expected) if rows else None
-        self._become(then or before)
-        return Outcome(found, _changed(before, self.states))
+        earlier = self.states
+        found = blame(self.model, ready or earlier, rows, refusals, env, expected) if rows else None
+        self._become(then or earlier)
+        return Outcome(found, _changed(earlier, self.states))
 
 
-def _given(value: Any) -> Any:
-    if value is None:
+def _given(given: Any, sort: Sort | None = None) -> Any:
+    if given is None:
         return ABSENT
-    if isinstance(value, bool):
-        return YES if value else NO
-    if isinstance(value, int | Enumeration):
-        return exactly(value)
-    return value if isinstance(value, str) else frozenset(value)
+    if isinstance(given, bool):
+        return YES if given else NO
+    if isinstance(sort, EnumSort) and isinstance(given, str):
+        return exactly(next(member for member in sort.members if member.value == given))
+    if isinstance(given, int | Enumeration):
+        return exactly(given)
+    return given if isinstance(given, str) else frozenset(given)
 
 
 def _widened(states: list[Partial]) -> list[Partial]:

@@ -1,0 +1,106 @@
+"""The replay of one recording: which channel belongs to which device, which model judges it, what is skipped."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from mmsverify.audit.device import Device, Place
+from mmsverify.concrete.belief import Belief
+from mmsverify.errors import DecodeError, UsageError
+from mmsverify.formats import mms
+from mmsverify.formats.mcap import McapTrace
+from mmsverify.formats.trace import TraceMessage
+from mmsverify.model import ModelData, load
+from mmsverify.resources import models_dir
+from mmsverify.results import Finding
+
+ROBOT = "mms-robot"
+Tables = Mapping[str, Mapping[str, Any]]
+
+
+class Replay:
+    """One recording under a profile. ``messages``, ``events`` and ``skipped`` are counts, true once the run is over."""
+
+    def __init__(self, trace: McapTrace, tables: Tables, model: str | None, variant: str) -> None:
+        self.trace = trace
+        self.profile = tables.get(ROBOT, {})
+        self.model: ModelData = load(_robot_model(model), models_dir(), variant)
+        self.messages = self.events = self.skipped = 0
+        self._devices: dict[str, Device] = {}
+        self._base_only = _base_only(trace, self.profile)
+
+    def run(self) -> Iterator[Finding]:
+        """The findings, in event order."""
+        for message in self.trace:
+            self.messages += 1
+            if message.message_encoding == "mms-ber":
+                self.events += 1
+                yield from self._device(message.metadata.get("vmd", "")).message(message)
+            elif message.schema_name == "link.Event" and self._link(message):
+                self.events += 1
+            else:
+                self.skipped += 1
+
+    def _link(self, message: TraceMessage) -> bool:
+        try:
+            event = json.loads(message.data)
+            connection, what, role = event["connection"], event["event"], event["role"]
+        except (ValueError, KeyError, TypeError):
+            return False
+        if role != "mms":
+            return False
+        self._device(message.metadata.get("name", "")).link(str(connection), str(what))
+        return True
+
+    def _device(self, vmd: str) -> Device:
+        if vmd not in self._devices:
+            scenario = self.model.options["scenario"]
+            sizes = {"PI": len(self.profile.get("predefined", ())), "Client": 0, "Request": 0}
+            _, facts = scenario(sizes, self.profile)
+            base = frozenset(name for owner, name in self._base_only if owner == vmd)
+            self._devices[vmd] = Device(Place(self.trace.path, vmd), Belief(self.model, facts), self._arms(), base)
+        return self._devices[vmd]
+
+    def _arms(self) -> frozenset[str]:
+        """The domains that represent an arm: those of the program invocations that the profile calls arms."""
+        arms = set(self.profile.get("arms", ()))
+        return frozenset(d for entry in self.profile.get("predefined", ()) if entry["name"] in arms for d in entry.get("domains", ()))
+
+
+def _robot_model(model: str | None) -> str:
+    if model is not None and model not in (ROBOT, "vr-template", "modbus-signals"):
+        raise UsageError(f"no model {model!r} can replay a recording", place="--model", cure=f"use {ROBOT}")
+    return ROBOT
+
+
+def _base_only(trace: McapTrace, profile: Mapping[str, Any]) -> frozenset[tuple[str, str]]:
+    """The associations of devices that are no robots: their Initiate shows no additional services, and no robot detail follows."""
+    begun: dict[tuple[str, str], bool] = {}
+    for message in trace:
+        if message.message_encoding != "mms-ber":
+            continue
+        key = (message.metadata.get("vmd", ""), message.metadata.get("association", ""))
+        if message.data[:1] in (b"\xa8", b"\xa9"):
+            begun[key] = begun.get(key, False) or _offers_additional(message.data)
+        elif key in begun and not begun[key] and (b"\xbf\x4f" in message.data or b"\xbf\x4e" in message.data):
+            begun[key] = _has_detail(message.data)
+    return frozenset(key for key, robot in begun.items() if not robot)
+
+
+def _offers_additional(octets: bytes) -> bool:
+    try:
+        body = mms.decode(octets).body
+    except DecodeError:
+        return True
+    details: Iterable[Any] = (body.get("initRequestDetail"), body.get("initResponseDetail"))
+    return any(detail and any(key.startswith("additionalSupported") for key in detail) for detail in details)
+
+
+def _has_detail(octets: bytes) -> bool:
+    try:
+        pdu = mms.decode(octets)
+    except DecodeError:
+        return False
+    return pdu.detail is not None or pdu.service in ("select", "vMDStop", "vMDReset", "alterPI")

@@ -1,0 +1,161 @@
+"""MMS PDUs as events of the robot model: which service is performed with which arguments, which attributes are shown.
+
+Only the meaning of fields is here. Nothing is judged, no state is kept.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from mmsverify.audit import words
+from mmsverify.formats.mms import Pdu, error_class_code
+
+OBSERVING = frozenset({"status", "getProgramInvocationAttributes", "read"})
+LIMITED = frozenset({"start", "stop", "resume", "reset"})
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    """One event of the model: a service with its arguments, or something shown."""
+
+    service: str
+    bindings: Mapping[str, Any] = field(default_factory=dict)
+
+
+def performed(pdu: Pdu, arms: frozenset[str]) -> Call | None:
+    """The service that a request asks the robot to perform; ``None`` for one that changes nothing in the model.
+
+    ``arms`` are the domains that represent a robot arm.
+    """
+    arguments = _arguments(pdu, arms)
+    return None if arguments is None else Call(str(pdu.service), {"panel": False, **arguments})
+
+
+def _arguments(pdu: Pdu, arms: frozenset[str]) -> dict[str, Any] | None:
+    body, detail = pdu.body, pdu.detail
+    match pdu.service:
+        case "createProgramInvocation":
+            kind = words.word(words.CONTROL, detail if isinstance(detail, int) else 0) or "NORMAL"
+            return {"pi": body["programInvocationName"], "kind": kind, "reuse": body["reusable"],
+                    "binds_arm": bool(arms.intersection(body["listOfDomainNames"]))}  # fmt: skip
+        case "deleteProgramInvocation":
+            return {"pi": body}
+        case "start":
+            return {"pi": body["programInvocationName"], **_start(detail)}
+        case "resume":
+            return {"pi": body["programInvocationName"], **_resume(detail)}
+        case "stop" | "reset" | "kill":
+            return {"pi": body["programInvocationName"]}
+        case "select":
+            listed = body.get("controlled", [])
+            return {"controlling": body.get("controlling"), "controlled": frozenset(listed), "named_twice": len(set(listed)) < len(listed)}
+        case "alterPI":
+            return {"pi": body["programInvocation"], **_limit(body["startCount"])}
+        case "vMDStop" | "vMDReset":
+            return {}
+        case "takeControl" | "relinquishControl":
+            return {} if _name(body["semaphoreName"]) == words.SEMAPHORE else None
+    return None
+
+
+def _start(detail: Any) -> dict[str, Any]:
+    if not detail or detail[0] == "normal":
+        return {"location_given": False, "limit": None, "count": 0}
+    return {"location_given": "startLocation" in detail[1], **_limit(detail[1]["startCount"])}
+
+
+def _resume(detail: Any) -> dict[str, Any]:
+    if not detail or detail[0] == "normal":
+        return {"type_given": False, "limit": None, "count": 0}
+    kind, count = detail[1]["modeType"]
+    return {"type_given": True, **(_limit(count) if kind == "changeMode" else {"limit": None, "count": 0})}
+
+
+def _limit(start_count: tuple[str, Any]) -> dict[str, Any]:
+    kind, number = start_count
+    return {"limit": words.LIMIT[kind], "count": number if isinstance(number, int) else 0}
+
+
+def _name(object_name: tuple[str, Any]) -> str:
+    """The name of an object that belongs to the VMD; that of another scope with its domain before it."""
+    scope, name = object_name
+    return f"{name['domainId']}/{name['itemId']}" if scope == "domain-specific" else str(name)
+
+
+def shown_by_status(body: Mapping[str, Any], detail: Mapping[str, Any] | None) -> Call | None:
+    """What Status, UnsolicitedStatus and the answer to VMD Reset show."""
+    logical = words.word(words.LOGICAL, body["vmdLogicalStatus"])
+    physical = words.word(words.PHYSICAL, body["vmdPhysicalStatus"])
+    if logical is None or physical is None:
+        return None
+    bindings: dict[str, Any] = {"shown_logical": logical, "shown_physical": physical, "detailed": False,
+                                "shown_robot": None, "selected_is": None, "shown_local": None}  # fmt: skip
+    if detail is not None:
+        kind, name = detail["selectedProgramInvocation"]
+        bindings |= {"detailed": True, "shown_robot": words.word(words.ROBOT_STATE, detail["robotVMDState"]),
+                     "selected_is": name if kind == "programInvocation" else None, "shown_local": _bit(detail, 3)}  # fmt: skip
+    return Call("status", bindings)
+
+
+def _bit(detail: Mapping[str, Any], place: int) -> bool | None:
+    """One bit of the robot-specific status; ``None`` where the mask says that it means nothing."""
+    status, mask = detail["robotSpecificStatus"], detail.get("robotSpecificStatusMask", "1111")
+    if len(status) <= place or mask[place : place + 1] == "0":
+        return None
+    return bool(status[place] == "1")
+
+
+def shown_by_attributes(name: str, body: Mapping[str, Any], detail: Mapping[str, Any] | None) -> Call | None:
+    """What GetProgramInvocationAttributes shows of ``name``."""
+    state = words.word(words.STATE, body["state"])
+    if state is None:
+        return None
+    return Call("getProgramInvocationAttributes", {
+        "pi": name, "shown_state": state, "shown_deletable": body["mmsDeletable"], "shown_reusable": body["reusable"],
+        "extended": detail is not None, **_control(detail),
+    })  # fmt: skip
+
+
+def _control(detail: Mapping[str, Any] | None) -> dict[str, Any]:
+    kind, content = detail["control"] if detail is not None else ("normal", None)
+    shown: dict[str, Any] = {"shown_control": kind.upper(), "listed": frozenset(), "controller_is": None, "shown_mode": None, "shown_count": 0}
+    if kind == "controlling":
+        mode, count = content["runningMode"]
+        shown |= {"listed": frozenset(content["controlledPI"]), "shown_mode": words.MODE[mode], "shown_count": count or 0}
+    elif kind == "controlled":
+        shown["controller_is"] = content[1]
+    return shown
+
+
+def read_values(request: Pdu, response: Pdu) -> Iterator[tuple[str, tuple[str, Any]]]:
+    """The named variables of a Read, or of an InformationReport (``request`` and ``response`` alike), with their values."""
+    kind, content = request.body["variableAccessSpecification"]
+    if kind != "listOfVariable":
+        return
+    for variable, result in zip(content, response.body["listOfAccessResult"], strict=False):
+        specification, named = variable["variableSpecification"]
+        if specification == "name" and "alternateAccess" not in variable and result[0] == "success":
+            yield _name(named), result[1]
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """Why a service failed, as far as it matters: for a reason of the controller's own, for want of the object, how it left the state."""
+
+    local: bool
+    unknown_object: bool
+    state: str | None
+
+
+def failure(pdu: Pdu) -> Failure:
+    """What a confirmed-ErrorPDU says about the failure."""
+    cause = error_class_code(pdu.body)
+    local = cause.class_name in {"resource", "others", "application-reference", "time-resolution", "service-preempt"}
+    local = local or (cause.class_name == "vmd-state" and cause.code in (0, 2, 3))
+    unknown = (cause.class_name, cause.code) in {("access", 2), ("definition", 1)}
+    state = None
+    if cause.info and cause.info[0] in LIMITED and isinstance(cause.info[1], int):
+        state = words.word(words.STATE, cause.info[1])
+    return Failure(local, unknown, state)

@@ -1,0 +1,60 @@
+"""The composition root of an audit: files in, findings out. Each recording is replayed device by device, event by event."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from mmsverify.audit.replay import Replay
+from mmsverify.errors import InputError, MmsverifyError
+from mmsverify.formats.mcap import McapTrace, read_trace
+from mmsverify.profiles import from_metadata, load_profile
+from mmsverify.results import Audit, AuditedInput, Finding
+
+UNREADABLE = "input.unreadable"
+"""The rule of a file that is no recording, or of the point at which one cannot be read on."""
+
+
+def audit_traces(
+    paths: Sequence[Path], *, profile: Path | None, model: str | None, variant: str = "repaired", progress: Callable[[str], None] | None = None
+) -> Audit:
+    """Replay every trace against its models. A file that cannot be read is a finding; the others are audited."""
+    tables = load_profile(profile)
+    inputs: list[AuditedInput] = []
+    findings: list[Finding] = []
+    for path in paths:
+        if progress is not None:
+            progress(f"auditing {path}")
+        try:
+            trace = read_trace(path)
+        except InputError as error:
+            findings.append(_unreadable(path, error))
+            continue
+        merged = tables if profile is not None else {**tables, **from_metadata(trace.profile, str(path))}
+        entry, found = _audit(trace, merged, model or trace.profile.get("model"), variant)
+        inputs.append(entry)
+        findings += found
+    return Audit(inputs, findings)
+
+
+def _audit(trace: McapTrace, tables: Mapping[str, Mapping[str, Any]], model: str | None, variant: str) -> tuple[AuditedInput, list[Finding]]:
+    begin = time.perf_counter()
+    replay = Replay(trace, tables, model, variant)
+    findings: list[Finding] = []
+    try:
+        for finding in replay.run():
+            findings.append(finding)
+    except InputError as error:
+        findings.append(_unreadable(Path(trace.path), error))
+    seconds = round(time.perf_counter() - begin, 3)
+    return AuditedInput(trace.path, replay.messages, replay.events, replay.skipped, trace.truncated, seconds), findings
+
+
+def _unreadable(path: Path, error: MmsverifyError) -> Finding:
+    return Finding(
+        path=str(path), index=None, time=None, topic=None, vmd=None, severity="error", rule=UNREADABLE, clauses=("R-7.3.1-2",),
+        message=str(error),
+    )  # fmt: skip
+
