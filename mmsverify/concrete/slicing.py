@@ -1,9 +1,10 @@
 """The part of a model that can matter to some claims: fewer variables, fewer rows, fewer values to try.
 
-A variable matters if a claim reads it, or if a row that writes one that matters reads it. Rows that write none that
-matters are dropped, so are updates and parameters that nothing reads, and values of a parameter that no test tells
-from another one. Every run of the part is a run of the whole and the other way round, of the same length once steps
-that change nothing that matters are left out: verdicts are the same, and a shortest path stays a shortest one.
+A variable matters if a claim reads it, or if a row that writes one that matters reads it. Rows that write
+none that matters are dropped, so are updates and parameters that nothing reads, and values of a parameter
+that no test tells from another one. Every run of the part is a run of the whole and the other way round, of
+the same length once steps that change nothing that matters are left out: verdicts are the same, and a
+shortest path stays a shortest one.
 """
 
 from __future__ import annotations
@@ -63,7 +64,7 @@ def _told_of(row: Row, told: Iterable[ex.RowFact]) -> bool:
 
 
 def _sliced_row(row: Row, known: frozenset[str], named: frozenset[str]) -> Row:
-    """The row without updates of what does not matter, and without the parameters that are then read no more."""
+    """The row without updates of what does not matter, and without parameters that nothing reads then."""
     assigns = tuple(a for a in row.assigns if a.variable in known)
     names = named.union(*(free_names(c.condition) for c in row.guard), *map(_names, assigns))
     parameters = tuple(p for p in row.on.parameters if p.name in names)
@@ -78,7 +79,7 @@ def _names(assign: Assign) -> frozenset[str]:
 
 
 def restored(model: ModelData, scope: Scope, path: Path) -> Path:
-    """A path of a part of ``model`` as a path of the whole: the same rows, all their parameters, whole states."""
+    """A path of a part of ``model`` as one of the whole: the same rows, all parameters, whole states."""
     rows = {(row.id, row.answer, row.guard): row for row in model.actions}
     taken = [path[0]]
     for short in path[1:]:

@@ -15,6 +15,7 @@ from .properties_repaired import PropertiesRepaired
 from .scenario import scenario
 from .selection import Selection, SelectionRepaired
 from .vmd import Vmd, VmdRepaired
+from .worlds import worlds
 
 STANDARD = "GB/T 16720.3-1996"
 VIEWS = {"robot state": "robot_state", "program invocation": "state"}
@@ -22,13 +23,13 @@ VIEWS = {"robot state": "robot_state", "program invocation": "state"}
 
 class AsWritten(
     Programs, Selection, Execution, Vmd, Associations, Observations, Properties, Figure8,
-    name="mms-robot", variant="as-written", standard=STANDARD, views=VIEWS, scenario=scenario,
+    name="mms-robot", variant="as-written", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
 ):  # fmt: skip
     """The text as it stands, faults included."""
 
 
 class Repaired(
     ProgramsRepaired, SelectionRepaired, ExecutionRepaired, VmdRepaired, AssociationsRepaired, Observations, PropertiesRepaired, Figure8Repaired,
-    name="mms-robot", variant="repaired", standard=STANDARD, views=VIEWS, scenario=scenario,
+    name="mms-robot", variant="repaired", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
 ):  # fmt: skip
     """The reading that keeps its own rules."""

@@ -15,10 +15,12 @@ def scenario(sizes: Mapping[str, int], profile: Mapping[str, Any]) -> tuple[dict
     """Element names for each sort and the facts about them.
 
     The first program invocations are the predefined ones of the profile, as many as fit; the others are there to be created.
+    Where the profile does not say which are predefined, at least half of them are there to be created.
     """
-    predefined = list(profile.get("predefined", DEFAULT))[: sizes.get("PI", 3)]
+    size = sizes.get("PI", 3)
+    predefined = list(profile["predefined"])[:size] if "predefined" in profile else list(DEFAULT[: size // 2])
     names = [str(entry["name"]) for entry in predefined]
-    others = [f"P{i + 1}" for i in range(sizes.get("PI", 3) - len(names))]
+    others = [f"P{i + 1}" for i in range(size - len(names))]
     elements = {
         "PI": (*names, *others),
         "Client": tuple(f"client{i + 1}" for i in range(sizes.get("Client", 1))),

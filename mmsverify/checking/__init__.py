@@ -1,0 +1,10 @@
+"""Checking models: proofs for any number of elements, then runs in small worlds; each claim gets a verdict.
+
+The composition root of ``check``: here the prover and the search meet, and nowhere else.
+
+    from mmsverify.checking import check_models
+"""
+
+from mmsverify.checking.models import check_models
+
+__all__ = ["check_models"]

@@ -1,0 +1,137 @@
+"""The check of models: in which order proofs and searches are tried, and the verdicts that come of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from pathlib import Path
+
+from mmsverify.checking import verdicts
+from mmsverify.checking.proofs import Proofs
+from mmsverify.checking.request import Progress, Request, require_known, require_sorts
+from mmsverify.checking.runs import Explorer
+from mmsverify.checking.worlds import World, small_worlds
+from mmsverify.model.load import load, names
+from mmsverify.model.model import ModelData
+from mmsverify.model.rows import Claim
+from mmsverify.profiles import load_profile
+from mmsverify.resources import models_dir
+from mmsverify.results import ModelCheck, Verdict
+
+FIRST_LOOK, SECOND_LOOK, LONG_LOOK, WHOLE_SCOPE = 40_000, 100_000, 400_000, 1_000_000
+"""States to see in a world: between attempts at a proof, each harder than the last; in a scope asked for."""
+
+
+def check_models(
+    models: Sequence[str],
+    *,
+    variant: str | None = None,
+    properties: Sequence[str] = (),
+    scope: Mapping[str, int] | None = None,
+    unbounded: bool = False,
+    depth: int | None = None,
+    timeout: float | None = None,
+    profile: Path | None = None,
+    progress: Progress = None,
+) -> list[ModelCheck]:
+    """A verdict for every property of the models, by name or path; all that are shipped where none is named.
+
+    ``scope`` bounds the numbers of elements, ``depth`` the steps of searches, ``timeout`` the
+    seconds for each property.
+    """
+    folder = models_dir()
+    loaded = [load(name, folder, variant) for name in models or names(folder)]
+    require_known(properties, loaded)
+    require_sorts(scope, loaded)
+    tables = load_profile(profile) if profile is not None else {}
+    checks = []
+    for model in loaded:
+        sizes = None if scope is None else {s.short: scope.get(s.short, 1) for s in model.sorts.values()}
+        request = Request(properties, sizes, unbounded, depth, timeout, tables.get(model.name))
+        if not properties or any(map(request.asks_for, model.claims)):
+            checks.append(check_model(model, request, progress))
+    return checks
+
+
+def check_model(model: ModelData, request: Request, progress: Progress = None) -> ModelCheck:
+    """The verdicts of one model."""
+    claims = [claim for claim in model.claims if request.asks_for(claim)]
+    check = _Check(model, request, progress)
+    if request.sizes is None:
+        check.without_bounds(claims)
+    else:
+        check.within(World(request.sizes, request.profile or {}), claims)
+    found = [check.verdict(claim) for claim in claims]
+    return ModelCheck(model.name, model.variant, found, tuple(_notes(model, request)))
+
+
+def _notes(model: ModelData, request: Request) -> Iterator[str]:
+    for gap in model.gaps:
+        yield f"gap {gap.name} ({' '.join(gap.clause.ids)}): {gap.says}"
+    if request.sizes is not None:
+        low, high = World(request.sizes, request.profile or {}).scope(model, few=False).int_bounds
+        yield f"integers without bounds range from {low} to {high} in this scope"
+
+
+class _Check:
+    """One model, one request: what is proved, what is found, what is still open."""
+
+    def __init__(self, model: ModelData, request: Request, progress: Progress) -> None:
+        self.model, self.request, self.progress = model, request, progress
+        self.proofs = Proofs(model, request.timeout)
+        self.explorer = Explorer(model, request, progress)
+        self.refuted: set[str] = set()
+
+    def within(self, world: World, claims: Sequence[Claim]) -> None:
+        """Every claim in one scope, whole if that can be done."""
+        self.explorer.explore(claims, [world], states=WHOLE_SCOPE, few=False)
+
+    def without_bounds(self, claims: Sequence[Claim]) -> None:
+        """Proofs for any number; short runs in one world; harder proofs of what is open; longer runs."""
+        worlds = small_worlds(self.model, self.request.profile)
+        self._prove([c for c in self.model.claims if c.kind != "sometimes"])
+        self._look(claims, worlds[:1], FIRST_LOOK)
+        self._prove_harder(claims, self._open(claims))
+        self._look(claims, worlds, SECOND_LOOK)
+        self._prove_harder(claims, self.model.always)
+        self._look(claims, worlds, LONG_LOOK, few=False)
+        self._tell("looking for shorter counterexamples")
+        self.explorer.shorten([c for c in claims if c.kind != "sometimes"], worlds, states=FIRST_LOOK)
+
+    def _prove(self, claims: Sequence[Claim]) -> None:
+        self._tell("proving by induction")
+        self.proofs.attempt(claims)
+
+    def _prove_harder(self, claims: Sequence[Claim], sources: Sequence[Claim]) -> None:
+        left = self._open(claims)
+        if left:
+            self._tell(f"harder proofs, {len(left)} properties open")
+        self.proofs.sharpen([c for c in left if c.kind != "sometimes"], sources)
+        self.refuted |= {c.name for c in left if c.kind == "sometimes" and self.proofs.refute(c)}
+
+    def _look(self, claims: Sequence[Claim], worlds: Sequence[World], states: int, few: bool = True) -> None:
+        wanted = [c for c in self._open(claims) if c.kind == "sometimes" or not self.request.unbounded]
+        if wanted:
+            self.explorer.explore(wanted, worlds, states=states, few=few)
+
+    def _open(self, claims: Sequence[Claim]) -> list[Claim]:
+        settled = self.proofs.proved | self.explorer.runs.keys() | self.refuted
+        return [claim for claim in claims if claim.name not in settled]
+
+    def _tell(self, what: str) -> None:
+        if self.progress:
+            self.progress(f"{self.model.name}: {what}")
+
+    def verdict(self, claim: Claim) -> Verdict:
+        """What is known of a claim now."""
+        name = claim.name
+        seconds = self.proofs.seconds.get(name, 0.0) + self.explorer.seconds.get(name, 0.0)
+        searches = self.explorer.searches.get(name, [])
+        if name in self.explorer.runs:
+            return verdicts.by_run(claim, self.explorer.runs[name], seconds)
+        if name in self.proofs.proved:
+            return verdicts.by_proof(self.model, claim, seconds)
+        if name in self.refuted:
+            return verdicts.out_of_reach(self.model, claim, seconds)
+        if self.request.sizes is not None:
+            return verdicts.by_search(claim, searches[-1], seconds)
+        return verdicts.undecided(self.model, claim, self.proofs.obstacles.get(name, []), searches, seconds)

@@ -1,0 +1,56 @@
+"""Proofs for any number of elements: by induction, then with sharper claims beside the open ones."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Literal
+
+from mmsverify.concrete.machine import speaks_of_steps
+from mmsverify.model import expr as ex
+from mmsverify.model.model import ModelData
+from mmsverify.model.rows import Claim
+from mmsverify.symbolic.induction import Obstacle, Prover
+from mmsverify.symbolic.sharpen import sharpened
+
+QUERY_SECONDS = 10.0
+"""How long Z3 may think about one obligation; they take milliseconds."""
+
+
+class Proofs:
+    """What has been proved of one model so far. What is known is given to every later attempt."""
+
+    def __init__(self, model: ModelData, timeout: float | None = None) -> None:
+        self.model = model
+        self.timeout = min(QUERY_SECONDS, timeout or QUERY_SECONDS)
+        self.invariants: list[Claim] = []
+        self.proved: set[str] = set()
+        self.obstacles: dict[str, list[Obstacle]] = {}
+        self.seconds: dict[str, float] = {}
+
+    def attempt(self, claims: Sequence[Claim]) -> None:
+        """Prove the largest inductive part of the claims, given what is known already."""
+        known = [claim.formula for claim in self.invariants]
+        outcome = Prover(self.model, timeout=self.timeout, facts=known).prove(claims)
+        self.proved |= outcome.proved
+        self.invariants += [c for c in claims if c.kind == "always" and c.name in outcome.proved]
+        self.obstacles |= outcome.obstacles
+        for name, seconds in outcome.seconds.items():
+            self.seconds[name] = self.seconds.get(name, 0.0) + seconds
+
+    def sharpen(self, claims: Sequence[Claim], sources: Sequence[Claim]) -> None:
+        """Try the claims again, beside stronger ones made from those of ``sources`` that are not proved."""
+        if claims:
+            self.attempt([*claims, *sharpened([c for c in sources if c.name not in self.proved])])
+
+    def refute(self, claim: Claim) -> bool:
+        """Whether a ``Sometimes`` is proved to be out of reach: its negation is inductive."""
+        never = negated(claim)
+        self.attempt([never])
+        self.seconds[claim.name] = self.seconds.pop(never.name, 0.0)
+        return never.name in self.proved
+
+
+def negated(claim: Claim) -> Claim:
+    """The claim that no state, or no step, is what a ``Sometimes`` says."""
+    kind: Literal["step", "always"] = "step" if speaks_of_steps(claim) else "always"
+    return Claim(f"{claim.name}!never", kind, claim.clause, ex.negation(claim.formula), assists=True)

@@ -1,0 +1,59 @@
+"""What is asked of a check, made plain: which claims of a model, within which bounds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from typing import Any
+
+from mmsverify.errors import UsageError
+from mmsverify.model.model import ModelData
+from mmsverify.model.rows import Claim
+
+Progress = Callable[[str], None] | None
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """``sizes``: elements of each sort (a bounded check); ``unbounded``: no search for counterexamples.
+
+    ``depth`` bounds the steps of a search; ``timeout`` is in seconds, for each property; ``profile`` is
+    the model's table of a profile, ``None`` where the user gave none.
+    """
+
+    properties: Sequence[str] = ()
+    sizes: Mapping[str, int] | None = None
+    unbounded: bool = False
+    depth: int | None = None
+    timeout: float | None = None
+    profile: Mapping[str, Any] | None = None
+
+    def asks_for(self, claim: Claim) -> bool:
+        """Whether the claim is among the properties that are named; where none is, all are."""
+        return not self.properties or claim.title in map(_hyphened, self.properties)
+
+
+def _hyphened(name: str) -> str:
+    return name.replace("_", "-")
+
+
+def require_known(properties: Sequence[str], models: Sequence[ModelData]) -> None:
+    """Refuse the name of a property that no model has."""
+    known = {claim.title for model in models for claim in model.claims}
+    for name in map(_hyphened, properties):
+        if name not in known:
+            near = get_close_matches(name, sorted(known), n=1)
+            cure = f"did you mean {near[0]}?" if near else f"use one of {', '.join(sorted(known)) or 'none'}"
+            raise UsageError(f"no property named {name!r}", place="--property", cure=cure)
+
+
+def require_sorts(sizes: Mapping[str, int] | None, models: Sequence[ModelData]) -> None:
+    """Refuse a scope that names a sort which no model has, or none of a sort."""
+    known = sorted({sort.short for model in models for sort in model.sorts.values()})
+    for sort, number in (sizes or {}).items():
+        if sort not in known:
+            cure = f"use {', '.join(known)}" if known else "leave the scope out: the models have no sorts"
+            raise UsageError(f"no model has a sort {sort!r}", place="--scope", cure=cure)
+        if number < 1:
+            raise UsageError(f"{sort}={number} leaves nothing", place="--scope", cure="give 1 or more")

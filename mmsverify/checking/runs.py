@@ -1,0 +1,108 @@
+"""Runs that settle claims, looked for breadth first in small worlds and replayed before they are believed.
+
+Claims to which the same variables matter are settled in one search, of the part of the model that matters.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from mmsverify.checking.request import Progress, Request
+from mmsverify.checking.worlds import World
+from mmsverify.concrete import Machine, Scope, SearchResult, path_steps, replay, search
+from mmsverify.concrete.scope import CellKey, Value
+from mmsverify.concrete.slicing import cone, narrowed, restored, sliced
+from mmsverify.model.model import ModelData
+from mmsverify.model.rows import Claim
+from mmsverify.results import PathStep
+
+
+@dataclass(frozen=True, slots=True)
+class Run:
+    """A run that breaks a claim, or that reaches what a ``Sometimes`` says, and the scope of it."""
+
+    steps: tuple[PathStep, ...]
+    scope: str
+    facts: Mapping[CellKey, Value]
+
+    @property
+    def length(self) -> int:
+        """Steps after the initial state."""
+        return len(self.steps) - 1
+
+
+@dataclass(frozen=True, slots=True)
+class Search:
+    """How far a search without a run went: all states of the scope, or every state within ``depth`` steps."""
+
+    scope: str
+    depth: int
+    exhausted: bool
+    reason: str
+
+
+class Explorer:
+    """Searches for runs of one model; keeps what it found, and how far it looked where it found nothing."""
+
+    def __init__(self, model: ModelData, request: Request, progress: Progress = None) -> None:
+        self.model, self.request, self.progress = model, request, progress
+        self.runs: dict[str, Run] = {}
+        self.searches: dict[str, list[Search]] = {}
+        self.seconds: dict[str, float] = {}
+
+    def explore(
+        self, claims: Sequence[Claim], worlds: Iterable[World], *, states: int, few: bool = True
+    ) -> None:
+        """Look for a run that settles each claim, at most ``states`` states a world."""
+        for world in worlds:
+            scope = world.scope(self.model, few)
+            for group in alike(self.model, [c for c in claims if c.name not in self.runs]):
+                self._tell(scope, group)
+                self._search(scope, group, states)
+
+    def shorten(self, claims: Sequence[Claim], worlds: Iterable[World], *, states: int) -> None:
+        """Look for shorter counterexamples than those found, in worlds where the claims were not refuted."""
+        for world in worlds:
+            scope = world.scope(self.model)
+            known = [c for c in claims if c.name in self.runs and self.runs[c.name].facts != scope.facts]
+            for group in alike(self.model, known):
+                self._search(scope, group, states, max(self.runs[c.name].length for c in group) - 1)
+
+    def _tell(self, scope: Scope, group: Sequence[Claim]) -> None:
+        if self.progress:
+            self.progress(f"{self.model.name}: {scope}: looking for runs, {len(group)} properties open")
+
+    def _search(
+        self, scope: Scope, group: Sequence[Claim], states: int, longest: int | None = None
+    ) -> None:
+        depth = self.request.depth if longest is None else longest
+        part = sliced(self.model, group)
+        tight = narrowed(part, scope)
+        result = search(
+            part, tight, claims=group, machine=Machine(part, tight), symmetry=True,
+            max_states=states, max_depth=depth, max_seconds=self.request.timeout,
+        )  # fmt: skip
+        for claim in group:
+            self.seconds[claim.name] = self.seconds.get(claim.name, 0.0) + result.seconds / len(group)
+            self._keep(scope, claim, result)
+
+    def _keep(self, scope: Scope, claim: Claim, result: SearchResult) -> None:
+        short = {**result.violations, **result.witnesses}.get(claim.name)
+        if short is None:
+            seen = Search(str(scope), result.depth, result.exhausted, result.reason)
+            self.searches.setdefault(claim.name, []).append(seen)
+            return
+        if claim.name in self.runs and self.runs[claim.name].length < len(short):
+            return
+        path = restored(self.model, scope, short)
+        replay(self.model, scope, path, claim)
+        self.runs[claim.name] = Run(path_steps(self.model, scope, path), str(scope), scope.facts)
+
+
+def alike(model: ModelData, claims: Sequence[Claim]) -> Iterator[list[Claim]]:
+    """The claims in groups that the same variables matter to; the group with the fewest variables first."""
+    groups: dict[frozenset[str], list[Claim]] = {}
+    for claim in claims:
+        groups.setdefault(cone(model, claim), []).append(claim)
+    return (groups[variables] for variables in sorted(groups, key=lambda names: (len(names), sorted(names))))

@@ -1,0 +1,27 @@
+"""The small worlds in which runs are looked for, the smaller ones first.
+
+Claims speak of every profile, so a run in any of these refutes them. Without a profile of the user's own: a
+robot with its arm program, one whose task program cannot be deleted, one where nothing is predefined; then a
+second client, a third program.
+"""
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+ARM = {"name": "R_ARM", "control": "CONTROLLED", "domains": ["R_ARM"], "deletable": False}
+TASK = {"name": "TASK", "control": "CONTROLLING", "domains": ["TASK"], "deletable": False}
+
+
+def worlds(profile: Mapping[str, Any] | None) -> Iterator[dict[str, Any]]:
+    """Sizes and profile of each world; a user's profile keeps all that it predefines, and room for more."""
+    if profile is not None:
+        given = len(profile.get("predefined", ()))
+        for more, clients in ((1, 1), (2, 1), (1, 2)):
+            yield {"sizes": {"PI": given + more, "Client": clients}, "profile": profile}
+        return
+    yield {"sizes": {"PI": 2}, "profile": {"predefined": [ARM]}}
+    yield {"sizes": {"PI": 2}, "profile": {"predefined": [ARM, TASK]}}
+    yield {"sizes": {"PI": 2}, "profile": {"predefined": []}}
+    yield {"sizes": {"PI": 1, "Client": 2}, "profile": {"predefined": [ARM]}}
+    yield {"sizes": {"PI": 2, "Client": 2}, "profile": {"predefined": [ARM], "associations": "multiple"}}
+    yield {"sizes": {"PI": 3}, "profile": {"predefined": [ARM]}}
