@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from mmsverify.concrete.belief.compiled import CompiledAssign, compiled
 from mmsverify.concrete.belief.constraints import Conflict, Constraints
-from mmsverify.concrete.belief.narrow import narrowing
 from mmsverify.concrete.belief.partial import Key, Partial
-from mmsverify.concrete.belief.truth import ABSENT, Env, truth, value
+from mmsverify.concrete.belief.truth import ABSENT, Env
 from mmsverify.concrete.belief.values import NO, YES, Known, join
-from mmsverify.model.declare import Assign
-from mmsverify.model.expr import Ref
 from mmsverify.model.rows import Clause, Conjunct, Row
 
 
@@ -26,13 +24,10 @@ class Refusal:
     invariant: Clause = field(default_factory=lambda: Clause(()))
 
 
-def satisfy(
-    guard: Sequence[Conjunct], state: Partial, env: Env, constraints: Constraints, row: Row
-) -> tuple[list[Partial], list[Refusal]]:
-    """The states in which all conjuncts hold; where none is left, the refusals at the furthest conjunct reached."""
+def satisfy(row: Row, state: Partial, env: Env, constraints: Constraints) -> tuple[list[Partial], list[Refusal]]:
+    """The states in which the row's guard holds; where none is left, the refusals at the furthest conjunct reached."""
     states, refusals = [state], []
-    for passed, conjunct in enumerate(guard):
-        assume = narrowing(conjunct.condition, True)
+    for passed, (conjunct, assume) in enumerate(zip(row.guard, compiled(row).guard, strict=True)):
         left: list[Partial] = []
         for before in states:
             for narrowed in assume(before, env, True):
@@ -47,48 +42,60 @@ def satisfy(
     return states, []
 
 
+def changed(before: Partial, after: Partial) -> list[Key]:
+    """The cells in which the states differ, free choices apart."""
+    old = before.cells
+    return [k for k, v in after.cells.items() if old.get(k) is not v and old.get(k) != v and k[0][0] != "$"]
+
+
 def settle(before: Partial, after: Partial, constraints: Constraints) -> Partial | Conflict:
     """The state after a change, with what the invariants conclude from the cells that changed."""
-    if after is before:
-        return after
-    changed = [k for k, v in after.cells.items() if before.cells.get(k) != v and not k[0].startswith("$")]
-    return constraints.after(after, changed)
+    return after if after is before else constraints.after(after, changed(before, after))
 
 
 def take(row: Row, state: Partial, env: Env, constraints: Constraints) -> tuple[list[Partial], list[Refusal]]:
     """The states after the row, without what was found out about its free choices; or why it cannot be taken."""
-    ready, refusals = satisfy(row.guard, state, env, constraints, row)
+    ready, refusals = satisfy(row, state, env, constraints)
     done: list[Partial] = []
     for before in ready:
-        after = settle(before, _plain(update(row.assigns, before, env)), constraints)
+        after = settle(before, _plain(update(row, before, env)), constraints)
         if not isinstance(after, Conflict):
             done.append(after)
     return done, refusals
 
 
+def possible(row: Row, state: Partial, env: Env) -> bool:
+    """Whether no single condition of the row's guard certainly fails: a quick test before taking it."""
+    return not compiled(row).impossible(state, env)
+
+
 def _plain(state: Partial) -> Partial:
-    choices = [key for key in state.cells if key[0].startswith("$") and not key[0].startswith("$decided")]
+    choices = [key for key in state.cells if key[0][0] == "$" and key[0] != "$decided"]
     return state.without(choices) if choices else state
 
 
-def update(assigns: Sequence[Assign], state: Partial, env: Env) -> Partial:
-    """The state with the assignments made in order, all reading the state before; unsure ones keep the old value possible."""
+def update(row: Row, state: Partial, env: Env) -> Partial:
+    """The state with the row's assignments made in order, all reading the state before; unsure ones keep the old value possible."""
     cells: dict[Key, Known] = {}
-    for assign in assigns:
-        sorts = [ref.of for ref in assign.bound]
-        for combination in state.world.combinations(sorts):  # type: ignore[arg-type]
-            _assign(assign, state, {**env, **{r.name: n for r, n in zip(assign.bound, combination, strict=True)}}, cells)
+    for assign in compiled(row).assigns:
+        if not assign.bound:
+            _assign(assign, state, env, cells)
+            continue
+        inner = dict(env)
+        for combination in state.world.combinations(assign.sorts):
+            inner.update(zip(assign.bound, combination, strict=True))
+            _assign(assign, state, inner, cells)
     return Partial(state.world, {**state.cells, **cells}) if cells else state
 
 
-def _assign(assign: Assign, state: Partial, env: Env, cells: dict[Key, Known]) -> None:
-    holds = truth(assign.where)(state, env)
+def _assign(assign: CompiledAssign, state: Partial, env: Env, cells: dict[Key, Known]) -> None:
+    holds = assign.where(state, env)
     if holds == NO:
         return
-    args = tuple(env.get(arg.name, ABSENT) for arg in assign.args if isinstance(arg, Ref))
+    args = tuple([env.get(name, ABSENT) for name in assign.args])
     if ABSENT in args:
         return
     key = (assign.variable, args)
-    new = value(assign.value)(state, env)
+    new = assign.value(state, env)
     old = cells.get(key)
     cells[key] = new if holds == YES else join(new, state.get(key) if old is None else old)

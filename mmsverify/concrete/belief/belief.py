@@ -116,7 +116,7 @@ class Belief:
         env |= self.environment("response", service, bindings)
         rows = self._rows.get(("indication", service), ())
         if rows:
-            ready = self.unseen.before(self.states, "answer", self._others(slot))
+            ready = self.unseen.before(self.states, "answer", self._others(slot), Goal(rows, env))
             self._become([after for state in ready for after in self._indicated(rows, state, env)])
         if ("response", service) in self._rows:
             self._outstanding[slot] = Outstanding(slot, self._rows["response", service], env)
@@ -137,7 +137,7 @@ class Belief:
         self._outstanding.pop(slot, None)
         self._remember()
         rows = [row for row in self._rows.get(("response", service), ()) if row.answer == answer]
-        ready = self.unseen.before(self.states, "answer", self._others(slot))
+        ready = self.unseen.before(self.states, "answer", self._others(slot), Goal(rows, env))
         earlier = self.states
         after, refusals = self._answered(rows, ready, env, slot, answer)
         if after:
@@ -185,7 +185,7 @@ class Belief:
         earlier = self.states
         rows = self._rows.get(("shown", service), ())
         for row in rows:
-            ready = self.unseen.before(self.states, "observation", self._outstanding, Goal(row, env))
+            ready = self.unseen.before(self.states, "observation", self._outstanding, Goal([row], env))
             agreeing, refusals = self._agreeing(row, ready, env)
             if watch is not None and any(self._agreed(row, states, env) for states in watch.earlier):
                 continue  # it may show an earlier instant, and then says nothing about this one
@@ -195,7 +195,7 @@ class Belief:
         return Outcome(written=_changed(earlier, self.states))
 
     def _agreed(self, row: Row, states: list[Partial], env: Env) -> bool:
-        return bool(self._agreeing(row, self.unseen.before(states, "observation", {}, Goal(row, env)), env)[0])
+        return bool(self._agreeing(row, self.unseen.before(states, "observation", {}, Goal([row], env)), env)[0])
 
     def _agreeing(self, row: Row, ready: Sequence[Partial], env: Env) -> tuple[list[Partial], list[Refusal]]:
         after: list[Partial] = []
@@ -243,7 +243,7 @@ class Belief:
         forced = []
         for row in rows[:1] if rows and rows[0].answer == MINUS else rows:
             for state in states:
-                after = update(row.assigns, state, env)
+                after = update(row, state, env)
                 found = settle(state, after, self.constraints)
                 forced.append(self._without_names(after, env) if isinstance(found, Conflict) else found)
         return forced

@@ -19,6 +19,9 @@ from mmsverify.model import expr as ex
 from mmsverify.model.expr import Cell, Expr, Quantified, Ref
 from mmsverify.model.rows import Clause
 
+LARGEST = 60
+"""Nodes of a formula that is worth asking. Larger ones spell out definitions of the whole state: costly, and they narrow little."""
+
 _Trigger = tuple[int, tuple[str, ...]]
 
 
@@ -47,7 +50,8 @@ class Constraints:
         self._memo: dict[tuple[Partial, frozenset[Key]], Partial | Conflict] = {}
         for formula, clause in invariants:
             for part in _conjuncts(formula):
-                self._add(part, clause)
+                if sum(1 for _ in ex.walk(part)) <= LARGEST:
+                    self._add(part, clause)
 
     def _add(self, formula: Expr, clause: Clause) -> None:
         bound, body = (formula.bound, formula.body) if _is_universal(formula) else ((), formula)  # type: ignore[attr-defined]

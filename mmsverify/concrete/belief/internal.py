@@ -12,10 +12,11 @@ from dataclasses import dataclass, field
 from itertools import product
 from typing import Any, Literal
 
-from mmsverify.concrete.belief.act import take
+from mmsverify.concrete.belief.act import changed, possible, take
+from mmsverify.concrete.belief.compiled import Pattern, at, compiled, touches
 from mmsverify.concrete.belief.constraints import Conflict, Constraints
 from mmsverify.concrete.belief.partial import OTHER, Partial, distinct
-from mmsverify.concrete.belief.truth import Env, truth
+from mmsverify.concrete.belief.truth import Env
 from mmsverify.concrete.belief.values import NO, YES
 from mmsverify.model.expr import Ref
 from mmsverify.model.model import ModelData
@@ -35,24 +36,29 @@ LARGEST_MEMO = 20000
 
 @dataclass(frozen=True, slots=True)
 class Firing:
-    """An internal row with names and truth values for its parameters; rows fire once for the names in ``tag``."""
+    """An internal row with names and truth values for its parameters; rows fire once for the names in ``tag``.
+
+    ``needs`` are the cells that its guard reads.
+    """
 
     row: Row
     tag: Tag
     env: Env
+    needs: frozenset[Pattern]
 
 
 class Goal:
-    """What an event shows: a row of observation in an environment."""
+    """An event that is about to be judged: the rows that may explain it, in its environment."""
 
-    def __init__(self, row: Row, env: Env) -> None:
+    def __init__(self, rows: Sequence[Row], env: Env) -> None:
         self.env = env
-        self.key = (row.id, frozenset((k, v) for k, v in env.items()))
-        self._conditions = [truth(conjunct.condition) for conjunct in row.guard]
+        self.rows = [compiled(row) for row in rows]
+        self.key = (rows[0].id if rows else "", rows[0].answer if rows else "", frozenset(env.items()))
+        self.cells = at({cell for row in self.rows for cell in row.cells}, env)
 
     def impossible(self, state: Partial) -> bool:
         """Whether the state certainly contradicts it."""
-        return any(holds(state, self.env) == NO for holds in self._conditions)
+        return all(row.impossible(state, self.env) for row in self.rows)
 
 
 @dataclass(frozen=True, slots=True)
@@ -94,11 +100,11 @@ class Unseen:
         self._memo.clear()
 
     def before(
-        self, states: Sequence[Partial], evidence: Evidence, outstanding: Mapping[str, Outstanding], goal: Goal | None = None
+        self, states: Sequence[Partial], evidence: Evidence, outstanding: Mapping[str, Outstanding], goal: Goal
     ) -> list[Partial]:
         """All states that may hold when the event comes, those of ``states`` first.
 
-        Given a ``goal`` (what the event shows), states from which it cannot be shown are left out early.
+        What cannot matter to the ``goal`` is left for later, what makes it impossible is left out.
         """
         reached: dict[Partial, None] = {}
         for state in states:
@@ -106,11 +112,11 @@ class Unseen:
         return distinct(reached)
 
     def _remembered(
-        self, state: Partial, evidence: Evidence, outstanding: Mapping[str, Outstanding], goal: Goal | None
+        self, state: Partial, evidence: Evidence, outstanding: Mapping[str, Outstanding], goal: Goal
     ) -> list[Partial]:
         if outstanding:
             return self._explore(state, evidence, outstanding, goal)
-        key = (state, evidence, goal and goal.key)
+        key = (state, evidence, goal.key)
         if key not in self._memo:
             if len(self._memo) > LARGEST_MEMO:
                 self._memo.clear()
@@ -118,23 +124,25 @@ class Unseen:
         return self._memo[key]
 
     def _explore(
-        self, start: Partial, evidence: Evidence, outstanding: Mapping[str, Outstanding], goal: Goal | None
+        self, start: Partial, evidence: Evidence, outstanding: Mapping[str, Outstanding], goal: Goal
     ) -> list[Partial]:
         firings = self._firings(start, evidence)
-        if goal is not None and not outstanding:
+        if not outstanding:
             firings = self._useful(start, firings, goal)
         seen: dict[Partial, None] = {start: None}
         work: deque[tuple[Partial, History]] = deque([(start, frozenset())])
         while work and len(seen) < LARGEST:
             state, history = work.popleft()
-            for tag, after in self._next(state, firings, history, outstanding):
+            for tag, after in self._next(state, firings, history, outstanding, goal):
                 if after not in seen and not state.covers(after):
                     seen[after] = None
                     work.append((after, history | {tag}))
         return distinct(seen)
 
     def _firings(self, state: Partial, evidence: Evidence) -> list[Firing]:
-        return [Firing(row, tag, env) for row in self._rows[evidence] for tag, env in self._bindings(row, state)]
+        return [
+            Firing(row, tag, env, at(compiled(row).guard_cells, env)) for row in self._rows[evidence] for tag, env in self._bindings(row, state)
+        ]
 
     def _useful(self, state: Partial, firings: Sequence[Firing], goal: Goal) -> list[Firing]:
         """The firings without those after which, whatever else happens, the goal cannot be shown."""
@@ -156,12 +164,14 @@ class Unseen:
         return written
 
     def _next(
-        self, state: Partial, firings: Sequence[Firing], history: History, outstanding: Mapping[str, Outstanding]
+        self, state: Partial, firings: Sequence[Firing], history: History, outstanding: Mapping[str, Outstanding], goal: Goal
     ) -> Iterator[tuple[Tag, Partial]]:
         fired = {name for name, _ in history}
         for firing in firings:
-            if firing.tag not in history and not fired.intersection(firing.row.never_after):
-                for after in take(firing.row, state, firing.env, self.constraints)[0]:
+            if firing.tag in history or fired.intersection(firing.row.never_after) or not possible(firing.row, state, firing.env):
+                continue
+            for after in take(firing.row, state, firing.env, self.constraints)[0]:
+                if outstanding or self._matters(firing, state, after, firings, goal):
                     yield firing.tag, after
         if PANEL not in fired and self._panel and state.get(("local_control", ())) == YES:
             forgotten = self.constraints.everywhere(state.forget(self._panel))
@@ -169,6 +179,21 @@ class Unseen:
                 yield (PANEL, ()), forgotten
         for request in outstanding.values():
             yield from self._performed(request, state)
+
+    def _matters(self, firing: Firing, state: Partial, after: Partial, firings: Sequence[Firing], goal: Goal) -> bool:
+        """Whether the goal reads what the firing changed, or may take away what it needs, or another firing is made possible.
+
+        One that does not matter can as well fire after the event.
+        """
+        keys = changed(state, after)
+        if not keys:
+            return False
+        if touches(goal.cells, keys) or any(_overlap(goal.cells, need) for need in firing.needs):
+            return True
+        return any(
+            touches(other.needs, keys) and not possible(other.row, state, other.env) and possible(other.row, after, other.env)
+            for other in firings
+        ) or any(variable == "local_control" for variable, _ in keys)
 
     def _performed(self, request: Outstanding, state: Partial) -> Iterator[tuple[Tag, Partial]]:
         """A request may be performed at any instant before its response."""
@@ -191,3 +216,10 @@ class Unseen:
         for values in product(*(values for _, values in ranged)):
             tag = (row.name, tuple(v for v in values if isinstance(v, str)))
             yield tag, dict(zip((name for name, _ in ranged), values, strict=True))
+
+
+def _overlap(cells: frozenset[Pattern], need: Pattern) -> bool:
+    variable, names = need
+    return any(
+        other == variable and all(a is None or b is None or a == b for a, b in zip(args, names, strict=True)) for other, args in cells
+    )

@@ -1,0 +1,117 @@
+"""Rows prepared for beliefs: their conditions and updates as closures, and the cells that they touch.
+
+Preparing is done once a row; taking a row is the hot path.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from mmsverify.concrete.belief.narrow import Narrowing, narrowing
+from mmsverify.concrete.belief.partial import Key
+from mmsverify.concrete.belief.truth import Env, Truth, Value, truth, value
+from mmsverify.model import expr as ex
+from mmsverify.model.declare import Assign
+from mmsverify.model.expr import Cell, Expr, Ref
+from mmsverify.model.rows import Row
+
+Pattern = tuple[str, tuple[str | None, ...]]
+"""A variable with the names at which it is touched; ``None`` stands for any name."""
+
+
+@dataclass(frozen=True, slots=True)
+class CompiledAssign:
+    """One update: bound names and their sorts, the condition, the target's arguments, the new value."""
+
+    variable: str
+    args: tuple[str, ...]
+    bound: tuple[str, ...]
+    sorts: tuple[Any, ...]
+    where: Truth
+    value: Value
+
+
+@dataclass(frozen=True, slots=True)
+class CompiledRow:
+    """A row's guard as truth tests and as narrowings, its updates, and the cells as they stand in its expressions."""
+
+    row: Row
+    tests: tuple[Truth, ...]
+    guard: tuple[Narrowing, ...]
+    assigns: tuple[CompiledAssign, ...]
+    guard_cells: tuple[Pattern, ...]
+    cells: tuple[Pattern, ...]
+
+    def impossible(self, state: Any, env: Env) -> bool:
+        """Whether a condition of the guard certainly fails."""
+        return any(test(state, env) == 1 for test in self.tests)
+
+
+_COMPILED: dict[int, CompiledRow] = {}
+
+
+def compiled(row: Row) -> CompiledRow:
+    """The row, prepared; by identity, for to hash a row is to walk all its expressions."""
+    found = _COMPILED.get(id(row))
+    if found is None or found.row is not row:
+        found = _COMPILED[id(row)] = _compile(row)
+    return found
+
+
+def _compile(row: Row) -> CompiledRow:
+    conditions = [conjunct.condition for conjunct in row.guard]
+    guard_cells = tuple(sorted({p for c in conditions for p in _patterns(c)}, key=str))
+    written = [(a.variable, tuple(arg.name for arg in a.args if isinstance(arg, Ref))) for a in row.assigns]
+    return CompiledRow(
+        row=row,
+        tests=tuple(map(truth, conditions)),
+        guard=tuple(narrowing(c, True) for c in conditions),
+        assigns=tuple(map(_assign, row.assigns)),
+        guard_cells=guard_cells,
+        cells=tuple(sorted({*guard_cells, *written, *(p for a in row.assigns for p in _reads(a))}, key=str)),
+    )
+
+
+def _assign(assign: Assign) -> CompiledAssign:
+    return CompiledAssign(
+        assign.variable,
+        tuple(arg.name for arg in assign.args if isinstance(arg, Ref)),
+        tuple(ref.name for ref in assign.bound),
+        tuple(ref.of for ref in assign.bound),
+        truth(assign.where),
+        value(assign.value),
+    )
+
+
+def _reads(assign: Assign) -> Iterator[Pattern]:
+    yield from _patterns(assign.where)
+    yield from _patterns(assign.value)
+
+
+def _patterns(expr: Expr) -> Iterator[Pattern]:
+    for node in ex.walk(expr):
+        if isinstance(node, Cell):
+            yield node.variable, tuple(arg.name if isinstance(arg, Ref) else None for arg in node.args)
+
+
+def at(patterns: Iterable[Pattern], env: Env) -> frozenset[Pattern]:
+    """The patterns with parameters replaced by the names of an environment; other names become "any"."""
+    return frozenset((variable, tuple(_named(env.get(arg)) if arg else None for arg in args)) for variable, args in patterns)
+
+
+def _named(given: Any) -> str | None:
+    return given if isinstance(given, str) else None
+
+
+def touches(patterns: Iterable[Pattern], keys: Iterable[Key]) -> bool:
+    """Whether one of the cells is among the patterns."""
+    by_variable: dict[str, list[tuple[str | None, ...]]] = {}
+    for variable, args in patterns:
+        by_variable.setdefault(variable, []).append(args)
+    return any(
+        all(want is None or want == name for want, name in zip(args, names, strict=True))
+        for variable, names in keys
+        for args in by_variable.get(variable, ())
+    )
