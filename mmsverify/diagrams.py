@@ -17,7 +17,7 @@ from mmsverify.resources import models_dir
 DRAWINGS: Mapping[str, Callable[[Sequence[View]], str]] = {"mermaid": mermaid, "dot": dot, "svg": svg}
 
 MAX_STATES = 5000
-"""How many states are expanded: enough for every small model, and for a fair sample of a large one in seconds."""
+"""How many states are expanded: enough for every small model, a fair sample of a large one."""
 
 DIAGRAM_BOUNDS = (0, 1)
 """The bounds of integers without bounds: a diagram shows that a counter changes, not how far it counts."""
@@ -26,8 +26,8 @@ DIAGRAM_BOUNDS = (0, 1)
 def draw(model: str, *, variant: str, format: str) -> str:
     """The views of a model as ``mermaid``, ``dot`` or ``svg``.
 
-    ``model`` is a name or a path. The scope is the model's option ``diagram`` (``{"sizes": ..., "profile": ...}``),
-    else two of each sort.
+    ``model`` is a name or a path. The scope is the model's option ``diagram`` (``{"sizes": ..., "profile":
+    ...}``), else two of each sort.
     """
     if format not in DRAWINGS:
         raise UsageError(f"no diagrams in the format {format!r}", cure=f"use one of {', '.join(DRAWINGS)}")

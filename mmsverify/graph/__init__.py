@@ -1,4 +1,4 @@
-"""Graphs of a model: its reachable states in networkx, views of them, drawings of views. The only home of networkx.
+"""Graphs of a model: its states in networkx, views of them, drawings of views. The home of networkx.
 
 from mmsverify.graph import explore, views, svg
 """

@@ -1,6 +1,7 @@
 """The steps that a machine takes, one after the other, and the graph of them: nodes are packed states.
 
-For models of some ten thousand states, and for a fair sample of larger ones; ``concrete.search`` goes further, faster.
+For models of some ten thousand states, and for a fair sample of larger ones; ``concrete.search`` goes
+further, faster.
 """
 
 from __future__ import annotations
@@ -22,7 +23,8 @@ Taken = tuple[State, int, State]
 def explore(machine: Machine, *, max_states: int | None = None) -> nx.MultiDiGraph[State]:
     """The graph of the reachable states; an edge has the number of its instance as key, and its ``row``.
 
-    At most ``max_states`` states are expanded, breadth first; ``graph.graph["complete"]`` tells whether that was all.
+    At most ``max_states`` states are expanded, breadth first; ``graph.graph["complete"]`` tells whether
+    that was all.
     """
     graph: nx.MultiDiGraph[State] = nx.MultiDiGraph()
     graph.add_nodes_from(machine.start.states, initial=True)
@@ -36,8 +38,8 @@ def explore(machine: Machine, *, max_states: int | None = None) -> nx.MultiDiGra
 class Walk:
     """An exploration in progress: its steps as they are taken, then whether it was ``complete``.
 
-    With ``kind`` the states of the kind that was expanded least come first, so that a sample has every kind that is
-    near; without it the order is breadth first.
+    With ``kind`` the states of the kind that was expanded least come first, so that a sample has every kind
+    that is near; without it the order is breadth first.
     """
 
     def __init__(

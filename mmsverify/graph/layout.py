@@ -1,7 +1,8 @@
 """Where boxes, arrows and labels of a view go on the page: plain geometry, no markup.
 
-Values stand on an ellipse, ordered so that those with many changes between them are neighbours. Arrows are curves that
-bend away from each other and from other boxes; a label stands on its curve where it covers least.
+Values stand on an ellipse, ordered so that those with many changes between them are neighbours. Arrows are
+curves that bend away from each other and from other boxes; a label stands on its curve where it covers
+least.
 """
 
 from __future__ import annotations
@@ -89,7 +90,7 @@ class Routed:
 
 
 def ordered(view: View) -> list[str]:
-    """The values in the order in which they go round: swaps that shorten the way between ends of arrows are made."""
+    """The values in the order in which they go round: exchanged where that brings ends of arrows closer."""
     values = list(view.values)
     pairs = {frozenset((a.source, a.target)) for a in view.arrows}
 
@@ -161,7 +162,7 @@ def _clipped(curve: Curve, source: Box, target: Box) -> Curve:
 
 
 def _cost(option: Routed, placed: dict[str, Box], done: Sequence[Routed]) -> float:
-    """What speaks against an option: covered boxes first, then covered labels and lines, then a strong bend."""
+    """What speaks against an option: covered boxes first, then covered labels and lines."""
     ends = (option.arrow.source, option.arrow.target)
     points = option.curve.points()
     others = [box for value, box in placed.items() if value not in ends]

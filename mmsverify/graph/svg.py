@@ -1,7 +1,7 @@
 """Views as SVG: markup only; where things go is ``layout``'s.
 
-A view with few changes has their row names on the arrows; one with many has numbers there and a legend below. The
-clauses that the rows cite are the tooltip of an arrow.
+A view with few changes has their row names on the arrows; one with many has numbers there and a legend
+below. The clauses that the rows cite are the tooltip of an arrow.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ from mmsverify.model.sorts import BOOL, EnumSort, Sort
 
 @dataclass(frozen=True, slots=True)
 class Arrow:
-    """A change from one value to another: the names of the rows that make it, and the clauses that these cite."""
+    """A change from one value to another: the names of the rows that make it, the clauses they cite."""
 
     source: str
     target: str
@@ -30,7 +30,7 @@ class Arrow:
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """The values that were reached, in the order of their sort, those at the start, and the changes between them.
+    """The values that were reached, in the order of their sort, those at the start, the changes between them.
 
     ``complete`` is false where only a part of the states was explored: other changes may exist.
     """
@@ -70,8 +70,8 @@ def _candidates(model: ModelData) -> Iterator[tuple[str, int, Sort]]:
 def views(machine: Machine, names: Mapping[str, str], *, max_states: int | None = None) -> list[View]:
     """The views of the variables and definitions ``names`` (by title), all from one exploration.
 
-    Of one with arguments the view shows what each of its cells does. Where ``max_states`` do not suffice, the states
-    that differ most in what the views show are explored first.
+    Of one with arguments the view shows what each of its cells does. Where ``max_states`` do not suffice,
+    the states that differ most in what the views show are explored first.
     """
     for name in names.values():
         _check_name(machine.model, name)
