@@ -193,7 +193,7 @@ class Unseen:
         return any(
             touches(other.needs, keys) and not possible(other.row, state, other.env) and possible(other.row, after, other.env)
             for other in firings
-        ) or any(variable == "local_control" for variable, _ in keys)
+        )
 
     def _performed(self, request: Outstanding, state: Partial) -> Iterator[tuple[Tag, Partial]]:
         """A request may be performed at any instant before its response."""
