@@ -39,7 +39,7 @@ class Device:
         self.arms = arms
         self.base_only = base_only
         self._associations: dict[str, Association] = {}
-        self._writers: dict[Key, int] = {}
+        self._writers: dict[Key, tuple[int, tuple[str, ...]]] = {}
         self._founded: dict[str, bool] = {}
         self._recent: dict[tuple[Any, ...], int] = {}
 
@@ -253,7 +253,8 @@ class Device:
         if outcome.blame is not None and not self._repeated(message, outcome.blame, service if not answer else None):
             yield self._finding(message, service, answer, outcome.blame, related)
         for key in outcome.written:
-            self._writers[key] = message.index
+            made = outcome.clauses.get(key[0]) or self._writers.get(key, (0, ()))[1]
+            self._writers[key] = (message.index, made)
 
     def _repeated(self, message: TraceMessage, blame: Blame, shown: str | None) -> bool:
         """Whether the same contradiction was told a short while ago: a lie that every poll repeats is one finding."""
@@ -263,12 +264,15 @@ class Device:
         return shown is not None and last is not None and message.index - last <= WINDOW
 
     def _finding(self, message: TraceMessage, service: str, answer: str, blame: Blame, related: tuple[int, ...]) -> Finding:
-        writers = {self._writers[key] for key in blame.reads if key in self._writers}
+        wrote = [self._writers[key] for key in sorted(blame.reads) if key in self._writers]
+        writers = {index for index, _ in wrote}
+        # What a message contradicts was established by the step that last wrote it: that step is cited, too.
+        made = () if answer else tuple(clause for _, clauses in wrote for clause in clauses)
         observed = f"{title(service)} answered {answer}" if answer else f"{title(service)} shows"
         says = f"{observed}, but {blame.says}" if answer else f"{title(service)}: {blame.says}"
         return Finding(
             path=self.place.path, index=message.index, time=message.time, topic=message.topic, vmd=self.place.vmd,
-            severity="error" if blame.level == "error" else "warning", rule=blame.rule, clauses=blame.clause.ids, message=says,
+            severity="error" if blame.level == "error" else "warning", rule=blame.rule, clauses=tuple(dict.fromkeys((*blame.clause.ids, *made))), message=says,
             expected=blame.expected, observed=answer or "shown", before=blame.before,
             related=tuple(sorted(({*related, *writers}) - {message.index})), readings=blame.clause.readings,
         )  # fmt: skip

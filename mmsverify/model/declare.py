@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from mmsverify.model import expr as ex
@@ -71,7 +71,8 @@ def optional(name: str, of: type[Enumeration] | Sort) -> Maybe:
 class Assign:
     """``variable[args] := value`` for all ``bound`` elements for which ``where`` holds; all read the state before.
 
-    A list of these is applied in order: a later one wins where two touch one cell.
+    A list of these is applied in order: a later one wins where two touch one cell. ``clauses`` are those of the step
+    that makes it.
     """
 
     variable: str
@@ -80,23 +81,23 @@ class Assign:
     bound: tuple[Ref, ...] = ()
     where: Expr = ex.TRUE
     place: str = field(default="", compare=False)
+    clauses: tuple[str, ...] = field(default=(), compare=False)
 
     def when(self, condition: Any) -> Assign:
         """The same update, only where ``condition`` holds; it may speak of the elements that ``over`` has bound."""
         marked = {ref.name.removesuffix("·"): ref for ref in self.bound}
         where = ex.conjunction(self.where, ex.substitute(formula(condition), marked))
-        return Assign(self.variable, self.args, self.value, self.bound, where, self.place)
+        return replace(self, where=where)
 
     def over(self, *elements: Element) -> Assign:
         """The same update for every value of ``elements``; their names are marked, so that no parameter is taken for them."""
         marked = {e.ref.name: Ref(e.ref.name + "·", e.ref.of) for e in elements}
-        return Assign(
-            self.variable,
-            tuple(ex.substitute(arg, marked) for arg in self.args),
-            ex.substitute(self.value, marked),
-            self.bound + tuple(marked.values()),
-            ex.substitute(self.where, marked),
-            self.place,
+        return replace(
+            self,
+            args=tuple(ex.substitute(arg, marked) for arg in self.args),
+            value=ex.substitute(self.value, marked),
+            bound=self.bound + tuple(marked.values()),
+            where=ex.substitute(self.where, marked),
         )
 
 

@@ -8,7 +8,7 @@ a variant may redeclare a name only with the repair that explains it.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -206,10 +206,10 @@ def _expanded(conjunct: Conjunct, definitions: Definitions) -> Conjunct:
 
 def _expanded_row(row: Row, definitions: Definitions) -> Row:
     assigns = tuple(
-        type(a)(a.variable, a.args, expand(a.value, definitions), a.bound, expand(a.where, definitions), a.place) for a in row.assigns
+        replace(a, value=expand(a.value, definitions), where=expand(a.where, definitions)) for a in row.assigns
     )
     guard = tuple(_expanded(c, definitions) for c in row.guard)
-    return Row(row.name, row.on, guard, assigns, row.answer, row.clause, row.choices, row.step, row.explains, row.never_after, row.place)
+    return replace(row, guard=guard, assigns=assigns)
 
 
 def _claims(declared: Mapping[str, Declared], definitions: Definitions) -> Iterator[Claim]:

@@ -60,7 +60,8 @@ class Transition(RowSource):
             raise mistake("a row without a clause", "cite the statement that it encodes: Transition('R-...', ...)", self.place)
         check_distinct(then, self.place)
         self.clause = Clause.of(*clauses)
-        self.on, self.then, self.answer, self.never_after = on, tuple(then), answer, tuple(never_after)
+        self.on, self.answer, self.never_after = on, answer, tuple(never_after)
+        self.then = tuple(replace(assign, clauses=self.clause.ids) for assign in then)
         self.guard = tuple(c if isinstance(c, Conjunct) else Conjunct(formula(c), self.clause) for c in when)
         self.observation_only = observation_only
         self.repairs = repairs
@@ -133,7 +134,7 @@ class _Run:
             case Refuse():
                 yield from self._refuse(step)
             case Do():
-                self._do(step.assigns)
+                self._do(step.assigns, cited(self.source.clause, step))
             case Accept():
                 yield from self._accept(step)
             case ForEach():
@@ -174,12 +175,12 @@ class _Run:
         yield self._row(step, MINUS, (self._conjunct(step, condition),), step.then)
         self.passed += (self._conjunct(step, ex.negation(condition)),)
 
-    def _do(self, assigns: Sequence[Assign]) -> None:
+    def _do(self, assigns: Sequence[Assign], clause: Clause) -> None:
         for assign in assigns:
             for name, ref in ex.refs_of(assign.where).items():
                 if name.startswith("chooses_") and ref not in self.choices:
                     self.choices += (ref,)
-        self.made += self._over_start(assigns)
+        self.made += self._over_start([replace(assign, clauses=clause.ids) for assign in assigns])
 
     def _accept(self, step: Accept) -> Iterator[Row]:
         condition = self.now(step.condition)
@@ -197,7 +198,8 @@ class _Run:
         self.choices = saved
         everywhere = ex.bind(True, (step.element,), ex.disjunction(ex.negation(step.where), step.possible))
         self.passed += (self._conjunct(step, self.now(everywhere)),)
-        self._do(tuple(_over(assign, step.element, step.where) for assign in step.body))
+        handled = tuple(_over(assign, step.element, step.where) for assign in step.body)
+        self._do(handled, cited(self.source.clause, step))
 
     def _fails(self, step: ForEach, bad: Element, done: SetOf) -> Expr:
         at_bad = ex.substitute(ex.conjunction(step.where, ex.negation(step.possible)), {step.element.name: bad.expr})

@@ -38,8 +38,8 @@ class ExecutionRepaired(Execution, VocabularyRepaired):
         always=[*forget],
         on_refusal=[state[pi].becomes(State.IDLE).when(~panel & entered[request, pi] & (state[pi] == State.STARTING))],
         steps=[
-            *admission("start", panel, local_control(), logical(), EVERYTHING),
             in_intervention,
+            *admission("start", panel, local_control(), logical(), EVERYTHING),
             refuse("a", "B-START", "RP-14", unless=exists[pi], rule="start.unknown", says="{pi} does not exist"),
             refuse("a", "B-START", unless=may_start, rule="start.not-idle", says="{pi} is not IDLE"),
             refuse("b", unless=holder[user] | panel, rule="start.without-control", says="{user} does not hold R_CTRL"),
@@ -96,8 +96,8 @@ class ExecutionRepaired(Execution, VocabularyRepaired):
         always=[*forget],
         on_refusal=[state[pi].becomes(State.STOPPED).when(~panel & entered[request, pi] & (state[pi] == State.RESUMING))],
         steps=[
-            *admission("resume", panel, local_control(), logical(), EVERYTHING),
             in_intervention,
+            *admission("resume", panel, local_control(), logical(), EVERYTHING),
             refuse("a", "B-RESUME", "RP-14", unless=exists[pi], rule="resume.unknown", says="{pi} does not exist"),
             refuse("a", "B-RESUME", unless=may_resume | acts_while_running, rule="resume.not-stopped", says="{pi} is not STOPPED"),
             refuse("b", unless=holder[user] | panel, rule="resume.without-control", says="{user} does not hold R_CTRL"),

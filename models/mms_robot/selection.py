@@ -76,9 +76,9 @@ class SelectionRepaired(Selection, VocabularyRepaired):
         on=response("select", request, user, panel, controlling, controlled, named_twice),
         always=[selecting[request, p].becomes(False).over(p)],
         steps=[
-            *admission("select", panel, local_control(), logical(), ALL_BUT_RUNNING),
             refuse("R-5.3.1.3.3.13-2", "RP-09", when=intervention(), rule="select.intervention",
                    says="the robot is in MANUAL-INTERVENTION-REQUIRED"),
+            *admission("select", panel, local_control(), logical(), ALL_BUT_RUNNING),
             refuse("a", unless=holder[user] | panel, rule="select.without-control", says="{user} does not hold R_CTRL"),
             refuse("b", "RP-14", when=unknown, rule="select.unknown", says="{controlling} does not exist"),
             refuse("b", when=controlling.present & (control[controlling] != Control.CONTROLLING), rule="select.not-controlling",

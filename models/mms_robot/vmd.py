@@ -108,9 +108,9 @@ class VmdRepaired(Vmd, VocabularyRepaired):
         "R-7.4.3.2",
         on=response("vMDReset", request, user, panel, prevented, to_idle),
         steps=[
-            refuse("R-3.2.1-1", "RP-10", when=local_control() != panel, rule="vmd-reset.local-control", says="the robot is in local control"),
             refuse("R-5.3.1.3.3.13-2", "RP-09", when=intervention(), rule="vmd-reset.intervention",
                    says="the robot is in MANUAL-INTERVENTION-REQUIRED, which only an operator's action may end"),
+            refuse("R-3.2.1-1", "RP-10", when=local_control() != panel, rule="vmd-reset.local-control", says="the robot is in local control"),
             refuse("R-6.1.3.2.5-2", "B-STATUS", "RP-11", unless=panel | logical().isin([Logical.STATE_CHANGES_ALLOWED, Logical.SUPPORT_SERVICES_ALLOWED]),
                    rule="vmd-reset.logical-status", level="warning", says="the logical status of the VMD does not admit the service"),
             refuse("a", unless=holder[user] | panel, rule="vmd-reset.without-control", says="{user} does not hold R_CTRL"),

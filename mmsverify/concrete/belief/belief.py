@@ -8,7 +8,7 @@ was observed: with the effects of the observed answer, or without them.
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from mmsverify.concrete.belief.act import Refusal, settle, take, update
@@ -28,10 +28,11 @@ LARGEST_BELIEF = 300
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What became of an event: a violation or none, and the cells that it changed."""
+    """What became of an event: a violation or none, the cells that it changed, and the clauses that made it change them."""
 
     blame: Blame | None = None
     written: frozenset[Key] = frozenset()
+    clauses: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
 
 @dataclass(slots=True)
@@ -141,7 +142,8 @@ class Belief:
         earlier = self.states
         after, refusals = self._answered(rows, ready, env, slot, answer)
         if after:
-            return self._become(after, earlier)
+            made = {assign.variable: assign.clauses for row in rows for assign in row.assigns}
+            return replace(self._become(after, earlier), clauses=made)
         self.states = [undecided(state, slot) for state in earlier]
         forced = self._forced(rows, self.states, env)
         if local and answer == MINUS:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
 from typing import Any
 
 from mmsverify.concrete.belief.act import Refusal
@@ -104,24 +105,20 @@ def _expected(conjunct: Conjunct, states: Sequence[Partial], env: Env) -> tuple[
     """For a shown value: the values that it could have had, as ``attribute=value``."""
     for node in ex.walk(conjunct.condition):
         if isinstance(node, Eq) and isinstance(node.right, Ref) and node.right.name.startswith("shown_"):
-            known = None
-            for state in states:
-                found = value(node.left)(state, env)
-                known = found if known is None else join(known, found)
-            listed = plain(known) if known is not None else []
+            listed = plain(reduce(join, (value(node.left)(state, env) for state in states)))
             return tuple(f"{node.right.name.removeprefix('shown_')}={v}" for v in listed if v not in plain(env[node.right.name]))
     return ()
 
 
 def _joined(states: Sequence[Partial], key: Key) -> Known:
-    known = states[0].get(key)
-    for state in states[1:]:
-        known = join(known, state.get(key))
-    return known
+    return reduce(join, (state.get(key) for state in states))
 
 
 def before(model: ModelData, states: Sequence[Partial], env: Env) -> dict[str, Any]:
-    """The state before the event, by attribute: single cells and definitions, and the cells of the names in the event."""
+    """The state before the event, by attribute: single cells and definitions, and the cells of the names in the event.
+
+    Relations that do not hold are left out, and what is not known.
+    """
     names = {given for given in env.values() if isinstance(given, str)}
     names |= {n for given in env.values() if isinstance(given, frozenset) for n in given if isinstance(n, str)}
     shown: dict[str, Any] = {}
@@ -129,16 +126,12 @@ def before(model: ModelData, states: Sequence[Partial], env: Env) -> dict[str, A
         variable, args = key
         if variable.startswith("$") or OTHER in args or (args and not names.intersection(args)):
             continue
-        if variable in model.signatures and not model.signatures[variable].rigid:
-            _put(shown, f"{variable}[{', '.join(args)}]" if args else variable, _joined(states, key), states[0].world.full[variable])
+        known = _joined(states, key)
+        if variable in model.signatures and not model.signatures[variable].rigid and not (args and known == NO):
+            _put(shown, f"{variable}[{', '.join(args)}]" if args else variable, known, states[0].world.full[variable])
     for name, (parameters, body) in model.definitions.items():
         if not parameters and body.sort.name != "Boolean":
-            known = None
-            for state in states:
-                found = value(body)(state, {})
-                known = found if known is None else join(known, found)
-            if known is not None:
-                _put(shown, name, known, None)
+            _put(shown, name, reduce(join, (value(body)(state, {}) for state in states)), None)
     return dict(sorted(shown.items()))
 
 
