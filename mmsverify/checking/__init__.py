@@ -6,5 +6,6 @@ The composition root of ``check``: here the prover and the search meet, and nowh
 """
 
 from mmsverify.checking.models import check_models
+from mmsverify.checking.traces import write_counterexamples
 
-__all__ = ["check_models"]
+__all__ = ["check_models", "write_counterexamples"]

@@ -17,7 +17,7 @@ from mmsverify.profiles import load_profile
 from mmsverify.resources import models_dir
 from mmsverify.results import ModelCheck, Verdict
 
-FIRST_LOOK, SECOND_LOOK, LONG_LOOK, WHOLE_SCOPE = 40_000, 100_000, 400_000, 1_000_000
+FIRST_LOOK, SECOND_LOOK, LONG_LOOK, WHOLE_SCOPE = 40_000, 100_000, 400_000, 200_000
 """States to see in a world: between attempts at a proof, each harder than the last; in a scope asked for."""
 
 
@@ -82,13 +82,21 @@ class _Check:
         self.refuted: set[str] = set()
 
     def within(self, world: World, claims: Sequence[Claim]) -> None:
-        """Every claim in one scope, whole if that can be done."""
+        """Every claim in one scope, whole if that can be done; what is proved for any number holds there too."""
         self.explorer.explore(claims, [world], states=WHOLE_SCOPE, few=False)
+        if self.request.depth is None and any(c.kind != "sometimes" for c in self._unexplored(claims)):
+            self._prove_all()
+
+    def _unexplored(self, claims: Sequence[Claim]) -> Iterator[Claim]:
+        """The open claims for which the scope was not searched whole."""
+        searches = self.explorer.searches
+        return (c for c in self._open(claims) if not searches[c.name][-1].exhausted)
 
     def without_bounds(self, claims: Sequence[Claim]) -> None:
         """Proofs for any number; short runs in one world; harder proofs of what is open; longer runs."""
         worlds = small_worlds(self.model, self.request.profile)
-        self._prove([c for c in self.model.claims if c.kind != "sometimes"])
+        if any(c.kind != "sometimes" for c in claims):
+            self._prove_all()
         self._look(claims, worlds[:1], FIRST_LOOK)
         self._prove_harder(claims, self._open(claims))
         self._look(claims, worlds, SECOND_LOOK)
@@ -97,14 +105,17 @@ class _Check:
         self._tell("looking for shorter counterexamples")
         self.explorer.shorten([c for c in claims if c.kind != "sometimes"], worlds, states=FIRST_LOOK)
 
-    def _prove(self, claims: Sequence[Claim]) -> None:
+    def _prove_all(self) -> None:
+        """Every claim of the model, whichever are asked for: they strengthen each other."""
         self._tell("proving by induction")
-        self.proofs.attempt(claims)
+        self.proofs.attempt([c for c in self.model.claims if c.kind != "sometimes"])
 
     def _prove_harder(self, claims: Sequence[Claim], sources: Sequence[Claim]) -> None:
         left = self._open(claims)
         if left:
             self._tell(f"harder proofs, {len(left)} properties open")
+        if left and not self.proofs.proved:
+            self._prove_all()
         self.proofs.sharpen([c for c in left if c.kind != "sometimes"], sources)
         self.refuted |= {c.name for c in left if c.kind == "sometimes" and self.proofs.refute(c)}
 
@@ -128,6 +139,8 @@ class _Check:
         searches = self.explorer.searches.get(name, [])
         if name in self.explorer.runs:
             return verdicts.by_run(claim, self.explorer.runs[name], seconds)
+        if searches and searches[-1].exhausted and self.request.sizes is not None:
+            return verdicts.by_search(claim, searches[-1], seconds)
         if name in self.proofs.proved:
             return verdicts.by_proof(self.model, claim, seconds)
         if name in self.refuted:

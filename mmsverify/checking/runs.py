@@ -73,9 +73,7 @@ class Explorer:
         if self.progress:
             self.progress(f"{self.model.name}: {scope}: looking for runs, {len(group)} properties open")
 
-    def _search(
-        self, scope: Scope, group: Sequence[Claim], states: int, longest: int | None = None
-    ) -> None:
+    def _search(self, scope: Scope, group: Sequence[Claim], states: int, longest: int | None = None) -> None:
         depth = self.request.depth if longest is None else longest
         part = sliced(self.model, group)
         tight = narrowed(part, scope)

@@ -1,0 +1,199 @@
+"""Messages of the robot standard for steps of its model: requests, answers, and what shows the state.
+
+A step is what results print of it (``PathStep``); no model is looked up here, and nothing is judged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from mmsverify.audit import words
+from mmsverify.formats.mms import Pdu, bit_string, number
+from mmsverify.model.rows import PLUS
+
+Arguments = Mapping[str, Any]
+State = Mapping[str, Any]
+
+TELLS_STATE = frozenset({"start", "stop", "resume", "reset"})
+OUTSTANDING = 5
+SEMAPHORE = ("vmd-specific", words.SEMAPHORE)
+
+
+def request(invoke_id: int, service: str, given: Arguments) -> Pdu:
+    """The request for a service with the arguments of its row."""
+    body, detail = _asked(service, given)
+    return Pdu("confirmed-RequestPDU", invoke_id, service, body, detail)
+
+
+def _asked(service: str, given: Arguments) -> tuple[Any, Any]:
+    match service:
+        case "createProgramInvocation":
+            domain = "R_ARM" if given["binds_arm"] else given["pi"]
+            named = {"programInvocationName": given["pi"], "listOfDomainNames": [domain]}
+            return {**named, "reusable": given["reuse"]}, words.CONTROL.index(given["kind"]) or None
+        case "deleteProgramInvocation":
+            return given["pi"], None
+        case "start":
+            return {"programInvocationName": given["pi"]}, _start(given)
+        case "resume":
+            return {"programInvocationName": given["pi"]}, _resume(given)
+        case "stop" | "reset" | "kill":
+            return {"programInvocationName": given["pi"]}, None
+        case "select":
+            return _selection(given), None
+        case "alterPI":
+            return {"programInvocation": given["pi"], "startCount": _count(given)}, None
+        case "vMDReset":
+            return False, None
+        case "takeControl" | "relinquishControl":
+            return {"semaphoreName": SEMAPHORE}, None
+        case "getProgramInvocationAttributes":
+            return given["pi"], None
+        case "status":
+            return False, None
+    return None, None
+
+
+def _start(given: Arguments) -> tuple[str, Any] | None:
+    if not given.get("location_given") and given.get("limit") is None:
+        return None
+    location = {"startLocation": "1"} if given.get("location_given") else {}
+    return "controlling", {**location, "startCount": _count(given)}
+
+
+def _resume(given: Arguments) -> tuple[str, Any] | None:
+    if not given.get("type_given") and given.get("limit") is None:
+        return None
+    changed = given.get("limit") is not None
+    return "controlling", {"modeType": ("changeMode", _count(given)) if changed else ("continueMode", None)}
+
+
+def _count(given: Arguments) -> tuple[str, Any]:
+    match given.get("limit"):
+        case "FREE-RUN":
+            return "noLimit", None
+        case "STEP-LIMITED":
+            return "stepCount", given.get("count", 1)
+    return "cycleCount", given.get("count", 1)
+
+
+def _selection(given: Arguments) -> dict[str, Any]:
+    if given.get("controlling") is None:
+        return {}
+    listed = list(given.get("controlled", ()))
+    twice = listed[:1] if given.get("named_twice") else []
+    return {"controlling": given["controlling"], "controlled": listed + twice}
+
+
+def answer(invoke_id: int, service: str, given: Arguments, result: str, after: State) -> Pdu:
+    """The response of a row with its result; a refusal tells the state where the protocol does."""
+    if result == PLUS:
+        body, detail = _answered(service, after)
+        return Pdu("confirmed-ResponsePDU", invoke_id, service, body, detail)
+    error: dict[str, Any] = {"errorClass": ("service", number("ServiceProblem", "object-state-conflict"))}
+    if service in TELLS_STATE:
+        error["serviceSpecificInformation"] = (service, words.STATE.index(after[f"state[{given['pi']}]"]))
+    return Pdu("confirmed-ErrorPDU", invoke_id, body={"serviceError": error})
+
+
+def _answered(service: str, after: State) -> tuple[Any, Any]:
+    match service:
+        case "vMDReset" | "status":
+            return _status(after), robot_status(after)
+        case "takeControl":
+            return ("noResult", None), None
+    return None, None
+
+
+def _status(state: State) -> dict[str, int]:
+    return {
+        "vmdLogicalStatus": words.LOGICAL.index(state["logical"]),
+        "vmdPhysicalStatus": words.PHYSICAL.index(state["physical"]),
+    }
+
+
+def robot_status(state: State) -> dict[str, Any]:
+    """The robot detail of Status (7.3.2.1.2); power and calibration are no part of the model: always there."""
+    flags = ["anyPhysicalResourcePowerOn", "allPhysicalResourcesCalibrated"]
+    local = ["localControl"] if state["local_control"] else []
+    chosen = [name for name in programs(state) if state[f"selected[{name}]"]]
+    return {
+        "robotVMDState": words.ROBOT_STATE.index(state["robot_state"]),
+        "robotSpecificStatus": bit_string("RobotSpecificStatus", [*flags, *local], 4),
+        "robotSpecificStatusMask": "1111",
+        "selectedProgramInvocation": ("programInvocation", chosen[0]) if chosen else ("noneSelected", None),
+    }
+
+
+def unsolicited_status(state: State) -> Pdu:
+    """The robot tells a change of its status by itself (7.3.2.2)."""
+    return Pdu("unconfirmed-PDU", None, "unsolicitedStatus", _status(state), robot_status(state))
+
+
+def programs(state: State) -> list[str]:
+    """Names of the program invocations that a state speaks of."""
+    return [cell[len("state[") : -1] for cell in state if cell.startswith("state[")]
+
+
+def attributes(invoke_id: int, name: str, state: State) -> Pdu:
+    """What GetProgramInvocationAttributes answers for a program invocation in this state."""
+    if state[f"state[{name}]"] == "NON-EXISTENT":
+        error = {"errorClass": ("access", number("AccessError", "object-non-existent"))}
+        return Pdu("confirmed-ErrorPDU", invoke_id, body={"serviceError": error})
+    body = {
+        "state": words.STATE.index(state[f"state[{name}]"]),
+        "listOfDomainNames": ["R_ARM" if state[f"arm[{name}]"] else name],
+        "mmsDeletable": state[f"deletable[{name}]"],
+        "reusable": state[f"reusable[{name}]"],
+        "monitor": False,
+        "executionArgument": ("simpleString", ""),
+    }
+    detail = {"errorCode": 0, "control": _control(name, state)}
+    return Pdu("confirmed-ResponsePDU", invoke_id, "getProgramInvocationAttributes", body, detail)
+
+
+def _control(name: str, state: State) -> tuple[str, Any]:
+    names = programs(state)
+    match state[f"control[{name}]"]:
+        case "CONTROLLING":
+            listed = [c for c in names if state[f"controls[{name}, {c}]"]]
+            return "controlling", {"controlledPI": listed, "runningMode": _mode(name, state)}
+        case "CONTROLLED":
+            leaders = [a for a in names if state[f"controller[{name}, {a}]"]]
+            return "controlled", ("controllingPI", leaders[0]) if leaders else ("none", None)
+    return "normal", None
+
+
+def _mode(name: str, state: State) -> tuple[str, Any]:
+    match state[f"mode[{name}]"]:
+        case "CYCLE-LIMITED":
+            return "cycleLimited", state[f"cycles[{name}]"]
+        case "STEP-LIMITED":
+            return "stepLimited", state[f"steps[{name}]"]
+    return "freeRunning", None
+
+
+def initiation(sort: str) -> Pdu:
+    """An Initiate of a robot that supports all of its services; ``sort`` is Request or Response."""
+    past = {"Request": "proposed", "Response": "negotiated"}[sort]
+    side = {"Request": "Calling", "Response": "Called"}[sort]
+    offered: Sequence[str] = (
+        "status", "getNameList", "identify", "read", "takeControl", "relinquishControl", "start", "stop",
+        "resume", "reset", "kill", "createProgramInvocation", "deleteProgramInvocation",
+        "getProgramInvocationAttributes", "unsolicitedStatus", "conclude",
+    )  # fmt: skip
+    body = {
+        f"{past}MaxServOutstandingCalling": OUTSTANDING,
+        f"{past}MaxServOutstandingCalled": OUTSTANDING,
+        f"init{sort}Detail": {
+            f"{past}VersionNumber": 1,
+            f"{past}ParameterCBB": bit_string("ParameterSupportOptions", ["str1", "vnam"], 11),
+            f"servicesSupported{side}": bit_string("ServiceSupportOptions", offered, 85),
+            f"additionalSupported{side}": bit_string("AdditionalSupportOptions", ADDITIONAL, 4),
+        },
+    }
+    return Pdu(f"initiate-{sort}PDU", body=body)
+
+
+ADDITIONAL = ("vMDStop", "vMDReset", "select", "alterProgramInvocationAttributes")
