@@ -1,7 +1,7 @@
 """Verdicts for a control engineer: a table of the properties, then every broken one step by step.
 
 A step shows what was done, which clauses allow it, and the cells of the state that it changed, nothing else:
-a counterexample is read by what moves.
+a counterexample is read by what moves. A cell that a step leaves out is one that never changes.
 """
 
 from __future__ import annotations
@@ -70,7 +70,7 @@ def _steps(steps: Sequence[PathStep]) -> Iterator[str]:
         yield f"  {number:>2}. {printable(step.action)}{_arguments(step)}{clauses}"
         after = cells(step.state)
         yield from (INDENT + line for line in (_whole(step) if before is None else _changes(before, after)))
-        before = after
+        before = {**(before or {}), **after}
 
 
 def _arguments(step: PathStep) -> str:
@@ -88,8 +88,8 @@ def _whole(step: PathStep) -> list[str]:
 
 def _changes(before: Mapping[str, str], after: Mapping[str, str]) -> list[str]:
     rows = [
-        (cell, f"{before.get(cell, 'unknown')} -> {after.get(cell, 'unknown')}")
-        for cell in sorted({*before, *after})
-        if before.get(cell) != after.get(cell)
+        (cell, f"{before.get(cell, 'unknown')} -> {held}")
+        for cell, held in sorted(after.items())
+        if before.get(cell) != held
     ]
     return columns(rows) if rows else ["(no cell changes)"]
