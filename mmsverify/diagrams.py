@@ -6,12 +6,15 @@ Ties loading, exploration and drawing together; the drawing itself is ``graph``'
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from mmsverify.concrete import Machine, Scope, scope_for
+from mmsverify.concrete.slicing import narrowed, sliced
 from mmsverify.errors import UsageError
 from mmsverify.graph import View, dot, mermaid, svg, view_names, views
-from mmsverify.model import ModelData, load
+from mmsverify.model import Claim, Clause, ModelData, load
+from mmsverify.model import expr as ex
 from mmsverify.resources import models_dir
 
 DRAWINGS: Mapping[str, Callable[[Sequence[View]], str]] = {"mermaid": mermaid, "dot": dot, "svg": svg}
@@ -31,14 +34,29 @@ def draw(model: str, *, variant: str, format: str) -> str:
     """
     if format not in DRAWINGS:
         raise UsageError(f"no diagrams in the format {format!r}", cure=f"use one of {', '.join(DRAWINGS)}")
-    loaded = load(model, models_dir(), variant)
-    machine = Machine(loaded, diagram_scope(loaded))
-    return DRAWINGS[format](views(machine, view_names(loaded), max_states=MAX_STATES))
+    return DRAWINGS[format](diagram_views(load(model, models_dir(), variant)))
+
+
+def diagram_views(model: ModelData) -> list[View]:
+    """The declared views of a model, from an exploration of the part of it that matters to them."""
+    names = view_names(model)
+    part = sliced(model, [_told_by(model, name) for name in names.values()])
+    machine = Machine(part, narrowed(part, diagram_scope(model)))
+    return views(machine, names, max_states=MAX_STATES)
+
+
+def _told_by(model: ModelData, name: str) -> Claim:
+    """A claim that reads what a view shows: what matters to it matters to the view."""
+    parameters, body = model.definitions.get(name, ((), ex.TRUE))
+    if name in model.signatures:
+        parameters = tuple(ex.Ref(f"at{i}", sort) for i, sort in enumerate(model.signatures[name].sorts))
+        body = model.define(name, *parameters)
+    same = ex.quantified(True, parameters, ex.equal(ex.primed(body), body))
+    return Claim(name, "step", Clause(()), same)
 
 
 def diagram_scope(model: ModelData) -> Scope:
     """The small scope in which a model is drawn."""
     asked: Mapping[str, Any] = model.options.get("diagram", {})
     sizes = asked.get("sizes", {sort.short: 2 for sort in model.sorts.values()})
-    scope = scope_for(model, sizes, asked.get("profile", {}))
-    return Scope(scope.elements, scope.facts, DIAGRAM_BOUNDS)
+    return replace(scope_for(model, sizes, asked.get("profile", {})), int_bounds=DIAGRAM_BOUNDS)

@@ -170,7 +170,7 @@ def _columns(view: View, letters: int) -> tuple[list[str], list[str]]:
     """The legend's lines, in two columns of about equal length."""
     entries = [
         textwrap.wrap(
-            f"{i}  {a.source} \u2192 {a.target}: {', '.join(a.rows)}", letters, subsequent_indent="\u2003 "
+            f"{i} {a.source} \u2192 {a.target}: {', '.join(a.rows)}", letters, subsequent_indent="\u2003 "
         )
         for i, a in enumerate(view.arrows, 1)
     ]

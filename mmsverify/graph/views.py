@@ -46,13 +46,15 @@ def view_names(model: ModelData) -> Mapping[str, str]:
     """What to draw: the ``views`` option of the model (title to name), else its first enumerated variable."""
     declared: Mapping[str, str] | None = model.options.get("views")
     if declared:
+        for name in declared.values():
+            _check_name(model, name)
         return declared
     enumerated = _first(model, lambda sort: isinstance(sort, EnumSort))
-    name = enumerated or _first(model, lambda sort: sort == BOOL)
-    if name is None:
+    found = enumerated or _first(model, lambda sort: sort == BOOL)
+    if found is None:
         cure = "declare views={'title': 'variable'} on its class"
         raise UsageError(f"the model {model.name} has nothing to draw", cure=cure)
-    return {name.replace("_", " "): name}
+    return {found.replace("_", " "): found}
 
 
 def _first(model: ModelData, wanted: Callable[[Sort], bool]) -> str | None:

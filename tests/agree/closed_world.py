@@ -1,4 +1,4 @@
-"""The steps from a state, found by a solver: models of guard and effect over a closed world of named elements.
+"""The steps from a state, found by a solver: models of guard and effect over a closed world of elements.
 
 The translation is the one that proofs use, over uninterpreted sorts; only here are the sorts closed.
 """
@@ -43,7 +43,10 @@ class ClosedWorld:
 
     def expr(self, sort: Sort, value: Value) -> Expr:
         """The expression for a value."""
-        return Ref(f"the {value}", sort) if isinstance(sort, ElementSort) else Const(value, sort)
+        if isinstance(sort, ElementSort):
+            return Ref(f"the {value}", sort)
+        assert not isinstance(value, str)
+        return Const(value, sort)
 
     def cell(self, key: CellKey) -> Cell:
         """The expression for a cell."""

@@ -1,8 +1,8 @@
 """Random small models, written in the public language, for the readers to agree on.
 
-Every construct of the language can occur: relations of arity 0 to 2, enumerations, bounded integers, rigid cells,
-quantifiers, conditional values, optional and set-valued parameters, procedures with all kinds of steps. Optional
-parameters are read under ``present`` only, as the language demands.
+Every construct of the language can occur: relations of arity 0 to 2, enumerations, bounded integers, rigid
+cells, quantifiers, conditional values, optional and set-valued parameters, procedures with every kind of step.
+Optional parameters are read under ``present`` only, as the language demands.
 """
 
 from __future__ import annotations
@@ -135,7 +135,7 @@ def colour(draw: Draw, hand: Hand, depth: int) -> Term:
 def number(draw: Draw, hand: Hand, depth: int) -> Term:
     """An integer as a term."""
     world = hand.world
-    options: list[Callable[[], Any]] = [lambda: world.level[element(draw, hand)], lambda: world.count()]
+    options: list[Callable[[], Any]] = [lambda: world.level[element(draw, hand)], world.count]
     if depth > 0:
         step = draw(st.sampled_from((1, 1, -1)))
         options.append(lambda: number(draw, hand, depth - 1) + step)
@@ -147,7 +147,7 @@ def atom(draw: Draw, hand: Hand, depth: int) -> Term:
     """A condition without connectives."""
     world = hand.world
     options: list[Callable[[], Any]] = [
-        lambda: world.flag(),
+        world.flag,
         lambda: world.mark[element(draw, hand)],
         lambda: world.fixed[element(draw, hand)],
         lambda: world.link[element(draw, hand), element(draw, hand)],
@@ -218,9 +218,7 @@ def update(draw: Draw, hand: Hand) -> Assign:
         lambda: world.level[element(draw, hand)].becomes(number(draw, hand, 1)),
         lambda: world.count().becomes(number(draw, hand, 1)),
     ]
-    options += [
-        lambda k=k: world.colour[element(draw, hand)].becomes(k).when(k.present) for k in hand.perhaps
-    ]  # type: ignore[misc]
+    options += [lambda k=k: painted(draw, hand, k) for k in hand.perhaps]  # type: ignore[misc]
     if over:
         # A value for each element at its own cell: nothing else would say which of several values is meant.
         options = [
@@ -233,6 +231,11 @@ def update(draw: Draw, hand: Hand) -> Assign:
     if draw(st.booleans()):
         made = made.when(condition(draw, hand, 1))
     return made.over(bound) if over else made
+
+
+def painted(draw: Draw, hand: Hand, given: Maybe) -> Assign:
+    """An update to an optional value, where it is given."""
+    return hand.world.colour[element(draw, hand)].becomes(given).when(given.present)
 
 
 def updates(draw: Draw, hand: Hand, most: int = 3) -> list[Assign]:

@@ -1,4 +1,4 @@
-"""The rows that are derived from a procedure do what its steps do when they are taken one by one, loops and all."""
+"""The rows derived from a procedure do what its steps do when taken one by one, loops and all."""
 
 from __future__ import annotations
 

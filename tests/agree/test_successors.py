@@ -16,7 +16,7 @@ from mmsverify.concrete.evaluate import successors, within_bounds
 from mmsverify.graph import explore
 from mmsverify.model import ModelData
 
-CALM = settings(deadline=None, max_examples=400, suppress_health_check=list(HealthCheck))
+CALM = settings(deadline=None, max_examples=200, suppress_health_check=list(HealthCheck))
 
 Step = tuple[str, str, frozenset[Any], frozenset[Any] | None]
 """Row, answer, parameters, state after; no state where an integer leaves its bounds."""
@@ -61,10 +61,10 @@ def test_compiled_code_takes_the_steps_that_the_judge_takes(situation: tuple[Mod
 def test_the_graph_has_an_edge_for_each_step(situation: tuple[ModelData, Scope]) -> None:
     machine = Machine(*situation)
     (start,) = machine.start.states
-    edges = explore(machine, max_states=1).out_edges(start, keys=True, data="row")
+    graph = explore(machine, max_states=1)
     found = {
-        step(row, machine.grounding.bindings(machine.instances[number]), machine.layout.read(after))
-        for _, after, number, row in edges
+        step(data["row"], machine.grounding.bindings(machine.instances[number]), machine.layout.read(after))
+        for _, after, number, data in graph.out_edges(start, keys=True, data=True)
     }
     assert found == {taken for taken in compiled(machine) if taken[3] is not None}
 

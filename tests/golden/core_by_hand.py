@@ -1,4 +1,4 @@
-"""The benchmark core, programmed by hand from its description: no rows, no library. For counting states only."""
+"""The benchmark core, programmed by hand from its description: no rows, no library. For counting only."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ CAN_RUN = ("IDLE", "STOPPED", "RUNNING")
 
 @dataclass(frozen=True)
 class Core:
-    """One state: of each program invocation its state, control, reference and list; the selected one; motion."""
+    """One state: of each program invocation state, control, reference and list; the selected one; motion."""
 
     state: tuple[str, ...]
     control: tuple[str, ...]
@@ -31,7 +31,7 @@ class Core:
         )  # fmt: skip
 
     def put(self, p: int, **fields: object) -> Core:
-        """This state with fields of one program invocation changed; ``list`` stands for its entry in ``lists``."""
+        """This state with fields of one program invocation changed; ``list`` is its entry in ``lists``."""
         changed: dict[str, object] = {}
         for name, value in fields.items():
             whole = list(getattr(self, "lists" if name == "list" else name))

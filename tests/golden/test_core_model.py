@@ -1,4 +1,4 @@
-"""The benchmark core: how many states it has, which of its properties hold, how short the counterexamples are."""
+"""The benchmark core: how many states it has, which properties hold, how short counterexamples are."""
 
 from __future__ import annotations
 
