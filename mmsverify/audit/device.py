@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from mmsverify.audit import robot, variables
+from mmsverify.audit.acquaintance import Acquaintance
 from mmsverify.audit.exchange import Asked, Association, Breach
 from mmsverify.audit.rules import RULES
 from mmsverify.audit.words import title
@@ -41,6 +42,7 @@ class Device:
         self._associations: dict[str, Association] = {}
         self._writers: dict[Key, tuple[int, tuple[str, ...]]] = {}
         self._founded: dict[str, bool] = {}
+        self._acquaintance = Acquaintance(belief.world.names["ProgramInvocation"])
         self._recent: dict[tuple[Any, ...], int] = {}
 
     # Links.
@@ -52,6 +54,7 @@ class Device:
             lost = association.gap()
             if connection not in self.base_only:
                 self.belief.lose_sight()
+                self._acquaintance.lose()
         elif event in ("close", "reset"):
             lost = association.end()
             self._release(connection)
@@ -158,12 +161,15 @@ class Device:
         if pdu.kind == "confirmed-ResponsePDU" and asked.pdu.service == "defineEventEnrollment":
             self._enrolled(asked.pdu)
 
-    def _decided(self, association: Association, asked: Asked, call: robot.Call, pdu: Pdu, message: TraceMessage) -> Iterator[Finding]:
+    def _decided(self, association: Association, asked: Asked, call: robot.Call, pdu: Pdu, message: TraceMessage) -> Iterator[Any]:
         """The robot has performed a service, or says why it has not."""
         bindings = dict(self._bindings(association, asked, call))
         if pdu.kind == "confirmed-ResponsePDU":
             outcome = self.belief.respond(asked.slot, call.service, bindings, PLUS)
             yield from self._told(message, call.service, PLUS, outcome, (asked.index,))
+            if outcome.blame is None and self._acquaintance.stranger(call):
+                yield Breach("program.never-shown", {"service": title(call.service), "pi": call.bindings["pi"]}, (asked.index,))
+            self._acquaintance.meet(call)
             if call.service == "vMDReset":
                 yield from self._status(pdu.body, pdu.detail, message, None)
             return
@@ -185,6 +191,7 @@ class Device:
             case "getProgramInvocationAttributes":
                 call = robot.shown_by_attributes(asked.pdu.body, pdu.body, pdu.detail)
                 if call is not None:
+                    self._acquaintance.meet(call)
                     outcome = self.belief.show(call.service, call.bindings, asked.slot)
                     yield from self._told(message, call.service, "", outcome)
             case "read":
@@ -193,6 +200,7 @@ class Device:
     def _status(self, body: Mapping[str, Any], detail: Any, message: TraceMessage, slot: str | None) -> Iterator[Finding]:
         call = robot.shown_by_status(body, detail)
         if call is not None:
+            self._acquaintance.meet(call)
             yield from self._told(message, "status", "", self.belief.show(call.service, call.bindings, slot))
 
     def _values(self, request: Pdu, response: Pdu, message: TraceMessage, slot: str | None) -> Iterator[Any]:

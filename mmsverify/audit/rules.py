@@ -39,6 +39,8 @@ _LISTED = (
     _rule("negotiation.version", "the negotiated version number {negotiated} is not between 1 and the proposed {proposed}", "R-7.5.2.1-1"),
     _rule("negotiation.outstanding", "{negotiated} outstanding requests are negotiated where {proposed} were proposed", "R-7.3.4-3", "B-NEGOTIATION"),
     _rule("select.controlled-alone", "a list of controlled program invocations without a controlling one", "R-7.4.4.3-2", "R-7.4.4.1.1.2-1"),
+    _rule("program.never-shown", "{service} answered result(+), but {pi} is not predefined, and since the robot was ROBOT-IDLE nothing has created or shown it",
+          "R-5.3.1.3.2.1-1", "R-7.3.3.9-1", "RP-14", "RP-21"),
     _rule("variable.type", "{variable} is {kind}, not {wanted}", "R-8.1-1"),
     _rule("variable.value", "{variable} is {value}, which is not among {wanted}", "R-8.1-1"),
     _rule("event.arm-running", "event condition R_ARM is notified, but the action result says that R_ARM is RUNNING", "R-8.7.4-1", "R-8.8.2-1"),

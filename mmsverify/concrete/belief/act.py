@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from itertools import product
+from math import prod
 
 from mmsverify.concrete.belief.compiled import CompiledAssign, compiled
 from mmsverify.concrete.belief.constraints import Conflict, Constraints
-from mmsverify.concrete.belief.partial import Key, Partial
+from mmsverify.concrete.belief.partial import MARKS, Fact, Key, Partial
+from mmsverify.concrete.belief.patterns import touches
 from mmsverify.concrete.belief.truth import ABSENT, Env
 from mmsverify.concrete.belief.values import NO, YES, Known, join
 from mmsverify.model.rows import Clause, Conjunct, Row
+
+
+LARGEST_TABLE = 128
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,12 +76,21 @@ def possible(row: Row, state: Partial, env: Env) -> bool:
 
 
 def _plain(state: Partial) -> Partial:
-    choices = [key for key in state.cells if key[0][0] == "$" and key[0] != "$decided"]
+    choices = [key for key in state.cells if key[0][0] == "$" and key[0] not in MARKS]
     return state.without(choices) if choices else state
 
 
 def update(row: Row, state: Partial, env: Env) -> Partial:
     """The state with the row's assignments made in order, all reading the state before; unsure ones keep the old value possible."""
+    cells = _written(row, state, env)
+    if not cells:
+        return state
+    stale = {key for key in state.facts() if not _still_true(state.world.facts[int(key[1][0])], row, state, env, cells)}
+    kept = {key: known for key, known in state.cells.items() if key not in stale} if stale else state.cells
+    return Partial(state.world, {**kept, **cells})
+
+
+def _written(row: Row, state: Partial, env: Env) -> dict[Key, Known]:
     cells: dict[Key, Known] = {}
     for assign in compiled(row).assigns:
         if not assign.bound:
@@ -85,7 +100,32 @@ def update(row: Row, state: Partial, env: Env) -> Partial:
         for combination in state.world.combinations(assign.sorts):
             inner.update(zip(assign.bound, combination, strict=True))
             _assign(assign, state, inner, cells)
-    return Partial(state.world, {**state.cells, **cells}) if cells else state
+    return cells
+
+
+def _still_true(fact: Fact, row: Row, state: Partial, env: Env, written: Mapping[Key, Known]) -> bool:
+    """Whether a fact about unseen names survives the row: it does not read what is written, or is kept for all values of its cells."""
+    if not touches(fact.cells, written):
+        return True
+    keys = [(variable, names) for variable, names in sorted(fact.cells, key=str) if None not in names]
+    ranges = [_singles(state.get(key)) for key in keys]  # type: ignore[arg-type]
+    if len(keys) < len(fact.cells) or prod(map(len, ranges)) not in range(1, LARGEST_TABLE):
+        return False
+    return all(_kept(fact, row, state, env, dict(zip(keys, values, strict=True))) for values in product(*ranges))  # type: ignore[arg-type]
+
+
+def _kept(fact: Fact, row: Row, state: Partial, env: Env, values: Mapping[Key, Known]) -> bool:
+    before = Partial(state.world, {**state.cells, **values})
+    if not fact.holds(before, fact.env) & fact.wanted:
+        return True
+    return fact.holds(Partial(state.world, {**before.cells, **_written(row, before, env)}), fact.env) == fact.wanted
+
+
+def _singles(known: Known) -> list[Known]:
+    """The values of a small known set, one by one; none of an interval."""
+    if isinstance(known, int):
+        return [mask for mask in (NO, YES) if known & mask]
+    return [frozenset([value]) for value in sorted(known, key=str)] if isinstance(known, frozenset) else []
 
 
 def _assign(assign: CompiledAssign, state: Partial, env: Env, cells: dict[Key, Known]) -> None:

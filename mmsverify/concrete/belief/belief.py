@@ -15,7 +15,7 @@ from mmsverify.concrete.belief.act import Refusal, settle, take, update
 from mmsverify.concrete.belief.blame import Blame, before, blame
 from mmsverify.concrete.belief.constraints import Conflict, Constraints
 from mmsverify.concrete.belief.internal import Goal, Outstanding, Unseen, decided, undecided
-from mmsverify.concrete.belief.partial import Key, Partial, World, distinct
+from mmsverify.concrete.belief.partial import UNSEEN, Key, Partial, World, distinct
 from mmsverify.concrete.belief.truth import ABSENT, Env, value
 from mmsverify.concrete.belief.values import NO, YES, exactly, plain
 from mmsverify.model.model import ModelData
@@ -75,9 +75,9 @@ class Belief:
         self.world.names[sort.name].append(name)
         self.constraints.forget()
         self.unseen.forget()
-        self.states = [state.meets(name, sort) for state in self.states]
+        self.states = [after for state in self.states for after in state.meets(name, sort)]
         for watch in self._watches.values():
-            watch.earlier = [[state.meets(name, sort) for state in states] for states in watch.earlier]
+            watch.earlier = [[after for state in states for after in state.meets(name, sort)] for states in watch.earlier]
 
     def environment(self, phase: str, service: str, bindings: Mapping[str, Any]) -> dict[str, Any]:
         """The values of an event's parameters as the readers take them; its names are seen.
@@ -254,7 +254,7 @@ class Belief:
         """The state with nothing known of the names in the event, and of what belongs to no name."""
         names = {n for given in env.values() for n in ([given] if isinstance(given, str) else given if isinstance(given, frozenset) else ())}
         rigid = {name for name, s in self.model.signatures.items() if s.rigid}
-        gone = [k for k in state.cells if k[0] not in rigid and (not k[1] or names.intersection(k[1]))]
+        gone = [k for k in state.cells if k[0] not in rigid and (not k[1] or names.intersection(k[1]) or k[0] == UNSEEN)]
         found = self.constraints.everywhere(state.without(gone))
         return state.forget(frozenset(self.world.full) - rigid) if isinstance(found, Conflict) else found
 

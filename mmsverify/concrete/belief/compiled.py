@@ -5,21 +5,16 @@ Preparing is done once a row; taking a row is the hot path.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
 from mmsverify.concrete.belief.narrow import Narrowing, narrowing
-from mmsverify.concrete.belief.partial import Key
+from mmsverify.concrete.belief.patterns import Pattern, patterns
 from mmsverify.concrete.belief.truth import Env, Truth, Value, truth, value
-from mmsverify.model import expr as ex
 from mmsverify.model.declare import Assign
-from mmsverify.model.expr import Cell, Expr, Ref
+from mmsverify.model.expr import Ref
 from mmsverify.model.rows import Row
-
-Pattern = tuple[str, tuple[str | None, ...]]
-"""A variable with the names at which it is touched; ``None`` stands for any name."""
-
 
 @dataclass(frozen=True, slots=True)
 class CompiledAssign:
@@ -62,7 +57,7 @@ def compiled(row: Row) -> CompiledRow:
 
 def _compile(row: Row) -> CompiledRow:
     conditions = [conjunct.condition for conjunct in row.guard]
-    guard_cells = tuple(sorted({p for c in conditions for p in _patterns(c)}, key=str))
+    guard_cells = tuple(sorted({p for c in conditions for p in patterns(c)}, key=str))
     written = [(a.variable, tuple(arg.name for arg in a.args if isinstance(arg, Ref))) for a in row.assigns]
     return CompiledRow(
         row=row,
@@ -86,32 +81,5 @@ def _assign(assign: Assign) -> CompiledAssign:
 
 
 def _reads(assign: Assign) -> Iterator[Pattern]:
-    yield from _patterns(assign.where)
-    yield from _patterns(assign.value)
-
-
-def _patterns(expr: Expr) -> Iterator[Pattern]:
-    for node in ex.walk(expr):
-        if isinstance(node, Cell):
-            yield node.variable, tuple(arg.name if isinstance(arg, Ref) else None for arg in node.args)
-
-
-def at(patterns: Iterable[Pattern], env: Env) -> frozenset[Pattern]:
-    """The patterns with parameters replaced by the names of an environment; other names become "any"."""
-    return frozenset((variable, tuple(_named(env.get(arg)) if arg else None for arg in args)) for variable, args in patterns)
-
-
-def _named(given: Any) -> str | None:
-    return given if isinstance(given, str) else None
-
-
-def touches(patterns: Iterable[Pattern], keys: Iterable[Key]) -> bool:
-    """Whether one of the cells is among the patterns."""
-    by_variable: dict[str, list[tuple[str | None, ...]]] = {}
-    for variable, args in patterns:
-        by_variable.setdefault(variable, []).append(args)
-    return any(
-        all(want is None or want == name for want, name in zip(args, names, strict=True))
-        for variable, names in keys
-        for args in by_variable.get(variable, ())
-    )
+    yield from patterns(assign.where)
+    yield from patterns(assign.value)

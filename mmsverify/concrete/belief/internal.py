@@ -13,9 +13,10 @@ from itertools import product
 from typing import Any, Literal
 
 from mmsverify.concrete.belief.act import changed, possible, take
-from mmsverify.concrete.belief.compiled import Pattern, at, compiled, touches
+from mmsverify.concrete.belief.compiled import compiled
 from mmsverify.concrete.belief.constraints import Conflict, Constraints
-from mmsverify.concrete.belief.partial import OTHER, Partial, distinct
+from mmsverify.concrete.belief.partial import DECIDED, OTHER, Partial, distinct
+from mmsverify.concrete.belief.patterns import Pattern, at, touches
 from mmsverify.concrete.belief.truth import Env
 from mmsverify.concrete.belief.values import NO, YES
 from mmsverify.model.expr import Ref
@@ -72,13 +73,13 @@ class Outstanding:
 
 def decided(state: Partial, slot: str) -> str | None:
     """The answer that the responder has already decided on for a request, though no message has shown it yet."""
-    mark = state.cells.get(("$decided", (slot,)))
+    mark = state.cells.get((DECIDED, (slot,)))
     return None if mark is None else next(iter(mark))  # type: ignore[arg-type]
 
 
 def undecided(state: Partial, slot: str) -> Partial:
     """The state without the mark of that decision."""
-    return state.without([("$decided", (slot,))])
+    return state.without([(DECIDED, (slot,))])
 
 
 @dataclass
@@ -201,7 +202,7 @@ class Unseen:
             return
         for row in request.rows:
             for after in take(row, state, request.env, self.constraints)[0]:
-                yield ("performed", (request.slot,)), after.put(("$decided", (request.slot,)), frozenset([row.answer]))
+                yield ("performed", (request.slot,)), after.put((DECIDED, (request.slot,)), frozenset([row.answer]))
 
     def _bindings(self, row: Row, state: Partial) -> Iterator[tuple[Tag, dict[str, Any]]]:
         """Names for the parameters that are elements, both values for Booleans; any other choice stays open."""

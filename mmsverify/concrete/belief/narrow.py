@@ -10,8 +10,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import lru_cache
 
-from mmsverify.concrete.belief.partial import OTHER, Partial
-from mmsverify.concrete.belief.truth import Env, key_of, truth, value
+from mmsverify.concrete.belief.partial import OTHER, Fact, Partial
+from mmsverify.concrete.belief.patterns import at, patterns
+from mmsverify.concrete.belief.truth import Env, Truth, key_of, truth, value
 from mmsverify.concrete.belief.values import EITHER, NO, YES, Known, above, below, meet, single, without
 from mmsverify.model import expr as ex
 from mmsverify.model.expr import And, Cell, Eq, Expr, Ite, Less, Not, Or, Quantified, Ref
@@ -245,6 +246,16 @@ def _every(expr: Quantified, want: bool) -> Narrowing:
     names, sorts = tuple(ref.name for ref in expr.bound), tuple(ref.of for ref in expr.bound)
     assume = narrowing(expr.body, want)
     holds, wanted = truth(expr.body), YES if want else NO
+    cells = tuple(patterns(expr.body))
+    bound = tuple(zip(names, (sort.name for sort in sorts), strict=True))
+
+    def remember(state: Partial, env: Env) -> Partial:
+        """A formula that is left open for unseen names is kept for when they are seen."""
+        given = {name: env[name] for name in (*names, *needed) if name in env}
+        key = state.world.fact((id(assume), frozenset(given.items())), lambda: Fact(assume, holds, wanted, given, bound, at(cells, given)))
+        return state.put(key, YES)
+
+    needed = tuple(sorted(set(ex.refs_of(expr.body)) | {n.set for n in ex.walk(expr.body) if isinstance(n, ex.Member)}))
 
     def narrow(state: Partial, env: Env, split: bool) -> list[Partial]:
         states = [state]
@@ -252,7 +263,7 @@ def _every(expr: Quantified, want: bool) -> Narrowing:
             inner = {**env, **dict(zip(names, combination, strict=True))}
             unseen = OTHER in combination
             if unseen:
-                states = [after for before in states for after in _of_unseen(before, inner, assume, holds, wanted)]
+                states = [_of_unseen(before, inner, assume, holds, wanted, remember) for before in states]
             else:
                 states = [after for before in states for after in assume(before, inner, split)]
         return states
@@ -260,12 +271,16 @@ def _every(expr: Quantified, want: bool) -> Narrowing:
     return narrow
 
 
-def _of_unseen(state: Partial, env: Env, assume: Narrowing, holds: Callable[[Partial, Env], int], wanted: int) -> list[Partial]:
+def _of_unseen(
+    state: Partial, env: Env, assume: Narrowing, holds: Truth, wanted: int, remember: Callable[[Partial, Env], Partial]
+) -> Partial:
+    """What holds of every unseen name narrows their common cells; where it leaves them open, it is kept as a fact."""
     if holds(state, env) == wanted:
-        return [state]
+        return state
     narrowed = assume(state, env, False)
-    # Where it can hold of no unseen name, there is none: nothing is known of cells that do not exist.
-    return narrowed[:1] if len(narrowed) == 1 else [state]
+    if len(narrowed) != 1:
+        return state  # of no unseen name: then there is none, and nothing is known of cells that do not exist
+    return narrowed[0] if holds(narrowed[0], env) == wanted else remember(narrowed[0], env)
 
 
 def _some(expr: Quantified, want: bool) -> Narrowing:

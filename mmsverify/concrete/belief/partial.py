@@ -6,10 +6,12 @@ name is first seen, it takes over what is known of ``OTHER``.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
 from itertools import product
+from typing import Any
 
-from mmsverify.concrete.belief.values import Known, everything, join, meet, within
+from mmsverify.concrete.belief.values import EITHER, Known, everything, join, meet, within
 from mmsverify.model.model import ModelData
 from mmsverify.model.sorts import ElementSort
 
@@ -19,17 +21,49 @@ Key = tuple[str, tuple[str, ...]]
 Cells = Mapping[Key, Known]
 
 
+UNSEEN = "$unseen"
+DECIDED = "$decided"
+MARKS = frozenset({UNSEEN, DECIDED})
+"""Keys of what a partial state holds beside cells: facts about names not seen yet, answers decided but not yet shown."""
+
+
+@dataclass(frozen=True, slots=True)
+class Fact:
+    """A formula that holds of every name not seen yet, but says nothing certain about any one of its cells.
+
+    It is assumed of a name when the name is seen. ``holds`` and ``wanted`` tell whether it is true of a state; ``bound`` are the
+    quantified names with their sorts, ``cells`` what it reads.
+    """
+
+    assume: Callable[[Partial, Mapping[str, Any], bool], list[Partial]]
+    holds: Callable[[Partial, Mapping[str, Any]], int]
+    wanted: int
+    env: Mapping[str, Any]
+    bound: tuple[tuple[str, str], ...]
+    cells: frozenset[tuple[str, tuple[str | None, ...]]]
+
+
 class World:
     """What all partial states of one belief share: the model's variables and the names seen so far, by sort."""
 
     def __init__(self, model: ModelData) -> None:
         self.model = model
         self.full: dict[str, Known] = {s.name: everything(s.of) for s in model.signatures.values()}
+        self.full[UNSEEN] = EITHER
         self.names: dict[str, list[str]] = {sort.name: [OTHER] for sort in model.sorts.values()}
+        self.facts: list[Fact] = []
+        self._numbers: dict[Any, int] = {}
 
     def known(self, sort: ElementSort, name: str) -> bool:
         """Whether the name has been seen as an element of the sort."""
         return name in self.names[sort.name]
+
+    def fact(self, identity: Any, make: Callable[[], Fact]) -> Key:
+        """The key under which a state holds the fact of that identity."""
+        if identity not in self._numbers:
+            self._numbers[identity] = len(self.facts)
+            self.facts.append(make())
+        return UNSEEN, (str(self._numbers[identity]),)
 
     def combinations(self, sorts: Iterable[ElementSort]) -> Iterator[tuple[str, ...]]:
         """All tuples of names of these sorts, ``OTHER`` included."""
@@ -78,10 +112,28 @@ class Partial:
 
     def forget(self, variables: frozenset[str]) -> Partial:
         """The same state with nothing known of these variables."""
-        return Partial(self.world, {k: v for k, v in self.cells.items() if k[0] not in variables})
+        return Partial(self.world, {k: v for k, v in self.cells.items() if k[0] not in variables and not self._reads(k, variables)})
 
-    def meets(self, name: str, sort: ElementSort) -> Partial:
-        """The same state once ``name`` has been seen: it takes over what holds of every unseen name."""
+    def _reads(self, key: Key, variables: frozenset[str]) -> bool:
+        return key[0] == UNSEEN and any(variable in variables for variable, _ in self.world.facts[int(key[1][0])].cells)
+
+    def facts(self) -> list[Key]:
+        """The keys of the facts about names not seen yet."""
+        return [key for key in self.cells if key[0] == UNSEEN]
+
+    def meets(self, name: str, sort: ElementSort) -> list[Partial]:
+        """The states once ``name`` has been seen: it takes over what holds of every unseen name."""
+        states = [self._renamed(name, sort)]
+        for key in self.facts():
+            fact = self.world.facts[int(key[1][0])]
+            places = [bound for bound, kind in fact.bound if kind == sort.name and fact.env[bound] == OTHER]
+            for chosen in product((False, True), repeat=len(places)):
+                if any(chosen):
+                    env = {**fact.env, **{b: name for b, take in zip(places, chosen, strict=True) if take}}
+                    states = [after for before in states for after in fact.assume(before, env, True)]
+        return states
+
+    def _renamed(self, name: str, sort: ElementSort) -> Partial:
         more = dict(self.cells)
         for (variable, args), value in self.cells.items():
             places = _places(self.world.model, variable, args, sort)

@@ -1,0 +1,42 @@
+"""Which program invocations a recording has made known (reading RP-21).
+
+ROBOT-IDLE means that no task program is available (5.3.1.3.2.1). What acts from then on without having been predefined, created
+or shown cannot be there. Nothing is said before ROBOT-IDLE is seen, nor after local control or a gap.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from mmsverify.audit.robot import Call
+
+ACTING = frozenset({"start", "stop", "resume", "reset", "kill", "deleteProgramInvocation", "alterPI"})
+NAMING = ("pi", "selected_is", "controller_is", "controlling")
+
+
+class Acquaintance:
+    """The names known, and whether any other can be excluded."""
+
+    def __init__(self, predefined: Iterable[str]) -> None:
+        self._known = set(predefined)
+        self._closed = False
+
+    def meet(self, call: Call) -> None:
+        """A message has shown or created what it names; Status says whether any other can be there."""
+        for key in NAMING:
+            if isinstance(call.bindings.get(key), str):
+                self._known.add(call.bindings[key])
+        for key in ("listed", "controlled"):
+            self._known |= call.bindings.get(key, frozenset())
+        if call.bindings.get("shown_local"):
+            self.lose()
+        elif call.bindings.get("shown_robot") == "ROBOT-IDLE":
+            self._closed = True
+
+    def lose(self) -> None:
+        """Something may have been created unseen."""
+        self._closed = False
+
+    def stranger(self, call: Call) -> bool:
+        """Whether the service acts on a program invocation that cannot be there."""
+        return self._closed and call.service in ACTING and call.bindings.get("pi") not in self._known
