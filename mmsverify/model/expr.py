@@ -14,9 +14,11 @@ from typing import Any
 from mmsverify.model.sorts import BOOL, ElementSort, EnumSort, Enumeration, IntSort, Sort, integer
 
 
-@dataclass(frozen=True, slots=True)
 class Expr:
     """Any expression; ``sort`` tells what it evaluates to."""
+
+    __slots__ = ("_hash",)
+    _hash: int
 
     @property
     def sort(self) -> Sort:
@@ -156,6 +158,23 @@ class RowFact(Expr):
     fact: str
     values: tuple[str, ...]
 
+
+def _hashed_once(structural: Callable[[Any], int]) -> Callable[[Expr], int]:
+    """A node's hash, kept in the node: readers look expressions up far more often than they make them."""
+
+    def hashed(node: Expr) -> int:
+        try:
+            found: int = node._hash
+        except AttributeError:
+            found = structural(node)
+            object.__setattr__(node, "_hash", found)
+        return found
+
+    return hashed
+
+
+for _kind in Expr.__subclasses__():
+    setattr(_kind, "__hash__", _hashed_once(_kind.__hash__))  # noqa: B010
 
 TRUE = Const(True)
 FALSE = Const(False)
@@ -333,9 +352,11 @@ def _unused(name: str, taken: set[str]) -> str:
     return name
 
 
-def map_cells(expr: Expr, change: Callable[[Cell], Expr]) -> Expr:
-    """The expression with every cell replaced by ``change(cell)``, innermost first."""
-    inner = rebuilt(expr, lambda part: map_cells(part, change))
+def map_cells(expr: Expr, change: Callable[[Cell], Expr], of: frozenset[str] | None = None) -> Expr:
+    """The expression with every cell replaced by ``change(cell)``, innermost first; only cells of the variables ``of``."""
+    if of is not None and of.isdisjoint(variables_of(expr)):
+        return expr
+    inner = rebuilt(expr, lambda part: map_cells(part, change, of))
     return change(inner) if isinstance(inner, Cell) else inner
 
 

@@ -161,7 +161,7 @@ def after(expr: Expr, assigns: Sequence[Assign]) -> Expr:
         by_variable.setdefault(assign.variable, []).append(assign)
     if not by_variable:
         return expr
-    return ex.map_cells(expr, lambda cell: _updated(cell, by_variable.get(cell.variable, ())))
+    return ex.map_cells(expr, lambda cell: _updated(cell, by_variable.get(cell.variable, ())), frozenset(by_variable))
 
 
 def _updated(cell: Cell, assigns: Sequence[Assign]) -> Expr:

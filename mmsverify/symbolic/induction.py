@@ -81,7 +81,7 @@ class Prover:
 
     def _broken(self, solver: z3.Solver, row: Row, claims: Sequence[Claim], outcome: Induction) -> list[Claim]:
         """The claims that the row may break; one query for all of them, and one each only where that fails."""
-        goals = [(c, obligation(c, row)) for c in claims if _touches(row, c)]
+        goals = [(c, obligation(c, row)) for c in claims if may_break(row, c)]
         goals = [(c, goal) for c, goal in goals if goal != ex.TRUE]
         if not goals:
             return []
@@ -124,6 +124,6 @@ class Prover:
         return solver
 
 
-def _touches(row: Row, claim: Claim) -> bool:
+def may_break(row: Row, claim: Claim) -> bool:
     """Whether the row writes a variable that the claim reads; others it cannot break (two-state claims may ask for the row)."""
     return claim.kind == "step" or bool(row.writes & ex.variables_of(claim.formula))

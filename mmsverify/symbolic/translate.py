@@ -55,7 +55,7 @@ class Translator:
             return z3.DeclareSort(sort.name)
         assert isinstance(sort, EnumSort)
         # Z3 keeps enumeration names for the life of its context, hence the serial number.
-        made, members = z3.EnumSort(f"{sort.name}!{self._serial}", [f"{m.name}!{self._serial}" for m in sort.members])
+        made, members = z3.EnumSort(f"{sort.name}!{self._serial}", [f"{sort.name}.{m.name}!{self._serial}" for m in sort.members])
         self._literals.update(zip(sort.members, members, strict=True))
         return made
 
