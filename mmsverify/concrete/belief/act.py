@@ -104,21 +104,29 @@ def _written(row: Row, state: Partial, env: Env) -> dict[Key, Known]:
 
 
 def _still_true(fact: Fact, row: Row, state: Partial, env: Env, written: Mapping[Key, Known]) -> bool:
-    """Whether a fact about unseen names survives the row: it does not read what is written, or is kept for all values of its cells."""
+    """Whether a fact about unseen names survives the row: it does not read what is written, or the row keeps it in any state."""
     if not touches(fact.cells, written):
         return True
+    key = (id(fact), row.id, frozenset(env.items()))
+    if key not in state.world.survives:
+        state.world.survives[key] = _survives(fact, row, Partial(state.world, {}), env)
+    return state.world.survives[key]
+
+
+def _survives(fact: Fact, row: Row, blank: Partial, env: Env) -> bool:
+    """Whether the row keeps the fact for all values of its cells, whatever the rest of the state."""
     keys = [(variable, names) for variable, names in sorted(fact.cells, key=str) if None not in names]
-    ranges = [_singles(state.get(key)) for key in keys]  # type: ignore[arg-type]
+    ranges = [_singles(blank.get(key)) for key in keys]  # type: ignore[arg-type]
     if len(keys) < len(fact.cells) or prod(map(len, ranges)) not in range(1, LARGEST_TABLE):
         return False
-    return all(_kept(fact, row, state, env, dict(zip(keys, values, strict=True))) for values in product(*ranges))  # type: ignore[arg-type]
+    return all(_kept(fact, row, blank, env, dict(zip(keys, values, strict=True))) for values in product(*ranges))  # type: ignore[arg-type]
 
 
-def _kept(fact: Fact, row: Row, state: Partial, env: Env, values: Mapping[Key, Known]) -> bool:
-    before = Partial(state.world, {**state.cells, **values})
+def _kept(fact: Fact, row: Row, blank: Partial, env: Env, values: Mapping[Key, Known]) -> bool:
+    before = Partial(blank.world, values)
     if not fact.holds(before, fact.env) & fact.wanted:
         return True
-    return fact.holds(Partial(state.world, {**before.cells, **_written(row, before, env)}), fact.env) == fact.wanted
+    return fact.holds(Partial(blank.world, {**values, **_written(row, before, env)}), fact.env) == fact.wanted
 
 
 def _singles(known: Known) -> list[Known]:

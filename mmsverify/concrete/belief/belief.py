@@ -75,6 +75,7 @@ class Belief:
         self.world.names[sort.name].append(name)
         self.constraints.forget()
         self.unseen.forget()
+        self.world.survives.clear()
         self.states = [after for state in self.states for after in state.meets(name, sort)]
         for watch in self._watches.values():
             watch.earlier = [[after for state in states for after in state.meets(name, sort)] for states in watch.earlier]

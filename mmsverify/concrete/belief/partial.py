@@ -52,6 +52,7 @@ class World:
         self.full[UNSEEN] = EITHER
         self.names: dict[str, list[str]] = {sort.name: [OTHER] for sort in model.sorts.values()}
         self.facts: list[Fact] = []
+        self.survives: dict[Any, bool] = {}
         self._numbers: dict[Any, int] = {}
 
     def known(self, sort: ElementSort, name: str) -> bool:

@@ -7,7 +7,7 @@ known set of values, a set of names (``None``: any set), or ``ABSENT``.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import lru_cache
+from functools import lru_cache, partial
 from typing import Any
 
 from mmsverify.concrete.belief.partial import OTHER, Partial
@@ -46,12 +46,19 @@ def key_of(cell: Cell) -> Callable[[Env], Any]:
     if not names:
         fixed = (variable, ())
         return lambda _env: fixed
+    if len(names) == 1:
+        return partial(_key_of_one, variable, names[0])
+    return partial(_key_of_many, variable, names)
 
-    def key(env: Env) -> Any:
-        args = tuple(env.get(name, ABSENT) for name in names)
-        return None if ABSENT in args else (variable, args)
 
-    return key
+def _key_of_one(variable: str, name: str, env: Env) -> Any:
+    given = env.get(name, ABSENT)
+    return None if given is ABSENT else (variable, (given,))
+
+
+def _key_of_many(variable: str, names: tuple[str, ...], env: Env) -> Any:
+    args = tuple([env.get(name, ABSENT) for name in names])
+    return None if ABSENT in args else (variable, args)
 
 
 @lru_cache(maxsize=None)
