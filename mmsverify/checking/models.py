@@ -16,6 +16,7 @@ from mmsverify.model.rows import Claim
 from mmsverify.profiles import load_profile
 from mmsverify.resources import models_dir
 from mmsverify.results import ModelCheck, Verdict
+from mmsverify.symbolic.overlap import Coverage
 
 FIRST_LOOK, SECOND_LOOK, LONG_LOOK, WHOLE_SCOPE = 40_000, 100_000, 400_000, 200_000
 """States to see in a world: between attempts at a proof, each harder than the last; in a scope asked for."""
@@ -61,7 +62,8 @@ def check_model(model: ModelData, request: Request, progress: Progress = None) -
     else:
         check.within(World(request.sizes, request.profile or {}), claims)
     found = [check.verdict(claim) for claim in claims]
-    return ModelCheck(model.name, model.variant, found, tuple(_notes(model, request)))
+    notes = [*_notes(model, request), *check.coverage()]
+    return ModelCheck(model.name, model.variant, found, tuple(notes))
 
 
 def _notes(model: ModelData, request: Request) -> Iterator[str]:
@@ -82,7 +84,7 @@ class _Check:
         self.refuted: set[str] = set()
 
     def within(self, world: World, claims: Sequence[Claim]) -> None:
-        """Every claim in one scope, whole if that can be done; what is proved for any number holds there too."""
+        """Every claim in one scope, searched whole if it can be; a proof for any number covers it too."""
         self.explorer.explore(claims, [world], states=WHOLE_SCOPE, few=False)
         if self.request.depth is None and any(c.kind != "sometimes" for c in self._unexplored(claims)):
             self._prove_all()
@@ -131,6 +133,11 @@ class _Check:
     def _tell(self, what: str) -> None:
         if self.progress:
             self.progress(f"{self.model.name}: {what}")
+
+    def coverage(self) -> Iterator[str]:
+        """Gaps and overlaps of the rows, where the whole model is checked for any number of elements."""
+        if self.request.sizes is None and not self.request.properties:
+            yield from verdicts.told(Coverage(self.model, self.proofs.invariants))
 
     def verdict(self, claim: Claim) -> Verdict:
         """What is known of a claim now."""

@@ -114,7 +114,7 @@ def _status(state: State) -> dict[str, int]:
 
 
 def robot_status(state: State) -> dict[str, Any]:
-    """The robot detail of Status (7.3.2.1.2); power and calibration are no part of the model: always there."""
+    """The robot detail of Status (7.3.2.1.2); power and calibration are not in the model: always there."""
     flags = ["anyPhysicalResourcePowerOn", "allPhysicalResourcesCalibrated"]
     local = ["localControl"] if state["local_control"] else []
     chosen = [name for name in programs(state) if state[f"selected[{name}]"]]

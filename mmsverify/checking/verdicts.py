@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from mmsverify.checking.runs import Run, Search
 from mmsverify.model import expr as ex
@@ -10,6 +10,7 @@ from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Claim
 from mmsverify.results import PathStep, Result, Verdict
 from mmsverify.symbolic.induction import Obstacle
+from mmsverify.symbolic.overlap import Coverage
 
 LONGEST_STATEMENT = 200
 
@@ -63,6 +64,19 @@ def undecided(
     scope = searches[-1].scope if searches else any_number(model)
     method = "bmc" if searches else "induction"
     return _verdict(claim, "unknown", method, scope, seconds, depth=deepest, reason="; ".join(parts))
+
+
+def told(coverage: Coverage) -> Iterator[str]:
+    """Gaps and overlaps as notes, one for each row that others overlap with."""
+    for gap in coverage.gaps():
+        how = "no row answers it in some state" if gap.proved else "it may be that no row answers it"
+        yield f"{gap.event}: {how}"
+    seen: dict[tuple[str, str], int] = {}
+    for overlap in coverage.overlaps():
+        key = overlap.event, overlap.rows[1]
+        seen[key] = seen.get(key, 0) + 1
+    for (event, row), count in seen.items():
+        yield f"{event}: {row} can be taken where another row can ({count} of them): the responder chooses"
 
 
 def _standing_in_the_way(obstacles: Sequence[Obstacle]) -> list[str]:

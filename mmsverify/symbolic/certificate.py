@@ -1,8 +1,9 @@
 """Proofs as SMT-LIB 2 scripts that any solver can check again: one for each thing that the proof rests on.
 
-An inductive proof rests on this: every invariant holds at the start; every row, taken where all invariants hold,
-leads to where those hold again that it may touch, and breaks no claim about steps. Each script asks for a state in
-which that fails; ``unsat`` says that there is none. The scripts are written from the rows and from nothing else.
+An inductive proof rests on this: every invariant holds at the start; every row, taken where all invariants
+hold, leads to where those hold again that it may touch, and breaks no claim about steps. Each script asks
+for a state in which that fails; ``unsat`` says that there is none. The scripts are written from the rows
+and from nothing else.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ class Certificate:
 
 
 def certificates(model: ModelData, proved: Sequence[Claim]) -> Iterator[Certificate]:
-    """The scripts for claims that are proved together; leave none of the invariants out that the proof used."""
+    """The scripts for claims that are proved together; ``proved`` must hold all that the proof used."""
     invariants = [claim for claim in proved if claim.kind == "always"]
     base = [c.condition for c in model.assumptions]
     start = [*base, *(c.condition for c in model.initial)]
