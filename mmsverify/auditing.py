@@ -18,7 +18,12 @@ UNREADABLE = "input.unreadable"
 
 
 def audit_traces(
-    paths: Sequence[Path], *, profile: Path | None, model: str | None, variant: str = "repaired", progress: Callable[[str], None] | None = None
+    paths: Sequence[Path],
+    *,
+    profile: Path | None,
+    model: str | None,
+    variant: str = "repaired",
+    progress: Callable[[str], None] | None = None,
 ) -> Audit:
     """Replay every trace against its models. A file that cannot be read is a finding; the others are audited."""
     tables = load_profile(profile)
@@ -39,7 +44,9 @@ def audit_traces(
     return Audit(inputs, findings)
 
 
-def _audit(trace: McapTrace, tables: Mapping[str, Mapping[str, Any]], model: str | None, variant: str) -> tuple[AuditedInput, list[Finding]]:
+def _audit(
+    trace: McapTrace, tables: Mapping[str, Mapping[str, Any]], model: str | None, variant: str
+) -> tuple[AuditedInput, list[Finding]]:
     begin = time.perf_counter()
     replay = Replay(trace, tables, model, variant)
     findings: list[Finding] = []
@@ -49,7 +56,9 @@ def _audit(trace: McapTrace, tables: Mapping[str, Mapping[str, Any]], model: str
     except InputError as error:
         findings.append(_unreadable(Path(trace.path), error))
     seconds = round(time.perf_counter() - begin, 3)
-    return AuditedInput(trace.path, replay.messages, replay.events, replay.skipped, trace.truncated, seconds), findings
+    return AuditedInput(
+        trace.path, replay.messages, replay.events, replay.skipped, trace.truncated, seconds
+    ), findings
 
 
 def _unreadable(path: Path, error: MmsverifyError) -> Finding:
@@ -57,4 +66,3 @@ def _unreadable(path: Path, error: MmsverifyError) -> Finding:
         path=str(path), index=None, time=None, topic=None, vmd=None, severity="error", rule=UNREADABLE, clauses=("R-7.3.1-2",),
         message=str(error),
     )  # fmt: skip
-

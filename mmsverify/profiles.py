@@ -44,7 +44,9 @@ def _number(default: int, least: int) -> Key:
 
 
 def _range(low: int, high: int) -> Key:
-    return Key([low, high], "two integers [first, last]", lambda v: _is_numbers(v) and len(v) == 2 and v[0] <= v[1])
+    return Key(
+        [low, high], "two integers [first, last]", lambda v: _is_numbers(v) and len(v) == 2 and v[0] <= v[1]
+    )
 
 
 def _is_int(value: Any) -> bool:
@@ -111,7 +113,11 @@ def from_metadata(metadata: Mapping[str, str], place: str) -> dict[str, dict[str
     model = metadata.get("model", "")
     if not model:
         return {}
-    keys = {name: _parsed(text, KEYS.get(model, {}).get(name)) for name, text in metadata.items() if name != "model"}
+    keys = {
+        name: _parsed(text, KEYS.get(model, {}).get(name))
+        for name, text in metadata.items()
+        if name != "model"
+    }
     return {model: dict(complete({model: keys}, place)[model])}
 
 
@@ -136,7 +142,11 @@ def _table(model: str, given: Any, keys: Mapping[str, Key], place: str) -> dict[
 
 def _entry(entry: Any, where: str) -> dict[str, Any]:
     if not isinstance(entry, Mapping) or "name" not in entry:
-        raise ProfileError("an entry of predefined is not a table with a name", place=where, cure='write {name = "...", control = "..."}')
+        raise ProfileError(
+            "an entry of predefined is not a table with a name",
+            place=where,
+            cure='write {name = "...", control = "..."}',
+        )
     return _checked(entry, ENTRY, f"{where} predefined {entry['name']}")
 
 
@@ -145,7 +155,9 @@ def _checked(given: Mapping[str, Any], keys: Mapping[str, Key], where: str) -> d
         if name not in keys:
             raise ProfileError(f"unknown key {name}", place=where, cure=_meant(name, keys))
         if not keys[name].fits(value):
-            raise ProfileError(f"{name} = {value!r} is not allowed", place=where, cure=f"give {keys[name].allows}")
+            raise ProfileError(
+                f"{name} = {value!r} is not allowed", place=where, cure=f"give {keys[name].allows}"
+            )
     return {name: given.get(name, key.default) for name, key in keys.items()}
 
 
@@ -182,6 +194,8 @@ def _read(path: Path) -> dict[str, Any]:
     try:
         return tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
-        raise ProfileError(f"cannot be read: {error.strerror}", place=str(path), cure="give a readable TOML file") from None
+        raise ProfileError(
+            f"cannot be read: {error.strerror}", place=str(path), cure="give a readable TOML file"
+        ) from None
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise ProfileError(f"not valid TOML: {error}", place=str(path), cure="mend the syntax") from None

@@ -34,7 +34,9 @@ class Place:
 class Device:
     """The replay of one robot's messages. ``base_only`` names associations to which the robot standard does not apply."""
 
-    def __init__(self, place: Place, belief: Belief, arms: frozenset[str], base_only: frozenset[str] = frozenset()) -> None:
+    def __init__(
+        self, place: Place, belief: Belief, arms: frozenset[str], base_only: frozenset[str] = frozenset()
+    ) -> None:
         self.place = place
         self.belief = belief
         self.arms = arms
@@ -134,7 +136,11 @@ class Device:
     def _requested(self, association: Association, asked: Asked) -> Iterator[Breach]:
         if not self._is_robot(association) or asked.side != "client":
             return
-        if asked.pdu.service == "select" and "controlled" in asked.pdu.body and "controlling" not in asked.pdu.body:
+        if (
+            asked.pdu.service == "select"
+            and "controlled" in asked.pdu.body
+            and "controlling" not in asked.pdu.body
+        ):
             yield Breach("select.controlled-alone")
         if asked.pdu.service in robot.OBSERVING:
             self.belief.watch(asked.slot)
@@ -145,7 +151,9 @@ class Device:
     def _bindings(self, association: Association, asked: Asked, call: robot.Call) -> Mapping[str, Any]:
         return {"request": asked.slot, "user": association.name, **call.bindings}
 
-    def _answered(self, association: Association, asked: Asked, pdu: Pdu, message: TraceMessage) -> Iterator[Any]:
+    def _answered(
+        self, association: Association, asked: Asked, pdu: Pdu, message: TraceMessage
+    ) -> Iterator[Any]:
         if not self._is_robot(association) or asked.side != "client":
             return
         call = robot.performed(asked.pdu, self.arms)
@@ -153,7 +161,11 @@ class Device:
             yield from self._decided(association, asked, call, pdu, message)
         elif pdu.kind == "confirmed-ResponsePDU":
             yield from self._shown(asked, pdu, message)
-        elif pdu.kind == "confirmed-ErrorPDU" and asked.pdu.service == "getProgramInvocationAttributes" and robot.failure(pdu).unknown_object:
+        elif (
+            pdu.kind == "confirmed-ErrorPDU"
+            and asked.pdu.service == "getProgramInvocationAttributes"
+            and robot.failure(pdu).unknown_object
+        ):
             outcome = self.belief.show("noProgramInvocationAttributes", {"pi": asked.pdu.body}, asked.slot)
             yield from self._told(message, str(asked.pdu.service), MINUS, outcome, (asked.index,))
         else:
@@ -161,14 +173,20 @@ class Device:
         if pdu.kind == "confirmed-ResponsePDU" and asked.pdu.service == "defineEventEnrollment":
             self._enrolled(asked.pdu)
 
-    def _decided(self, association: Association, asked: Asked, call: robot.Call, pdu: Pdu, message: TraceMessage) -> Iterator[Any]:
+    def _decided(
+        self, association: Association, asked: Asked, call: robot.Call, pdu: Pdu, message: TraceMessage
+    ) -> Iterator[Any]:
         """The robot has performed a service, or says why it has not."""
         bindings = dict(self._bindings(association, asked, call))
         if pdu.kind == "confirmed-ResponsePDU":
             outcome = self.belief.respond(asked.slot, call.service, bindings, PLUS)
             yield from self._told(message, call.service, PLUS, outcome, (asked.index,))
             if outcome.blame is None and self._acquaintance.stranger(call):
-                yield Breach("program.never-shown", {"service": title(call.service), "pi": call.bindings["pi"]}, (asked.index,))
+                yield Breach(
+                    "program.never-shown",
+                    {"service": title(call.service), "pi": call.bindings["pi"]},
+                    (asked.index,),
+                )
             self._acquaintance.meet(call)
             if call.service == "vMDReset":
                 yield from self._status(pdu.body, pdu.detail, message, None)
@@ -197,7 +215,9 @@ class Device:
             case "read":
                 yield from self._values(asked.pdu, pdu, message, asked.slot)
 
-    def _status(self, body: Mapping[str, Any], detail: Any, message: TraceMessage, slot: str | None) -> Iterator[Finding]:
+    def _status(
+        self, body: Mapping[str, Any], detail: Any, message: TraceMessage, slot: str | None
+    ) -> Iterator[Finding]:
         call = robot.shown_by_status(body, detail)
         if call is not None:
             self._acquaintance.meet(call)
@@ -208,11 +228,15 @@ class Device:
             yield from variables.judge(name, data)
             call = variables.shows(name, data)
             if call is not None:
-                yield from self._told(message, "read", "", self.belief.show(call.service, call.bindings, slot))
+                yield from self._told(
+                    message, "read", "", self.belief.show(call.service, call.bindings, slot)
+                )
         if slot is not None:
             self.belief.drop(slot)
 
-    def _unconfirmed(self, association: Association, side: str, pdu: Pdu, message: TraceMessage) -> Iterator[Any]:
+    def _unconfirmed(
+        self, association: Association, side: str, pdu: Pdu, message: TraceMessage
+    ) -> Iterator[Any]:
         if not self._is_robot(association) or side != "server":
             return
         if pdu.service == "unsolicitedStatus":
@@ -245,7 +269,11 @@ class Device:
     def _notified(self, pdu: Pdu) -> Iterator[Breach]:
         condition = pdu.body["eventConditionName"][1]
         kind, result = (pdu.body.get("actionResult") or {}).get("eventActionResult", ("none", None))
-        if condition == "R_ARM" and kind == "success" and result["response"][0] == "getProgramInvocationAttributes":
+        if (
+            condition == "R_ARM"
+            and kind == "success"
+            and result["response"][0] == "getProgramInvocationAttributes"
+        ):
             shown = result["response"][1]
             if shown["state"] == 3 and shown["listOfDomainNames"] == ["R_ARM"]:
                 yield Breach("event.arm-running")
@@ -257,8 +285,17 @@ class Device:
 
     # Findings.
 
-    def _told(self, message: TraceMessage, service: str, answer: str, outcome: Outcome, related: tuple[int, ...] = ()) -> Iterator[Finding]:
-        if outcome.blame is not None and not self._repeated(message, outcome.blame, service if not answer else None):
+    def _told(
+        self,
+        message: TraceMessage,
+        service: str,
+        answer: str,
+        outcome: Outcome,
+        related: tuple[int, ...] = (),
+    ) -> Iterator[Finding]:
+        if outcome.blame is not None and not self._repeated(
+            message, outcome.blame, service if not answer else None
+        ):
             yield self._finding(message, service, answer, outcome.blame, related)
         for key in outcome.written:
             made = outcome.clauses.get(key[0]) or self._writers.get(key, (0, ()))[1]
@@ -271,7 +308,9 @@ class Device:
         self._recent[key] = message.index
         return shown is not None and last is not None and message.index - last <= WINDOW
 
-    def _finding(self, message: TraceMessage, service: str, answer: str, blame: Blame, related: tuple[int, ...]) -> Finding:
+    def _finding(
+        self, message: TraceMessage, service: str, answer: str, blame: Blame, related: tuple[int, ...]
+    ) -> Finding:
         wrote = [self._writers[key] for key in sorted(blame.reads) if key in self._writers]
         writers = {index for index, _ in wrote}
         # What a message contradicts was established by the step that last wrote it: that step is cited, too.
@@ -293,5 +332,3 @@ class Device:
             severity=rule.severity, rule=rule.id, clauses=cited.ids, message=rule.says.format(**breach.words), expected=(), observed="",
             related=breach.related, readings=cited.readings,
         )  # fmt: skip
-
-

@@ -78,14 +78,24 @@ class Association:
         asked = Asked(index, side, pdu, earlier.slot if earlier else self._free_slot())
         self.asked[key] = asked
         if earlier is not None:
-            return asked, [Breach("protocol.invoke-id-reused", {"invoke": pdu.invoke_id, "first": earlier.index}, (earlier.index,))]
+            return asked, [
+                Breach(
+                    "protocol.invoke-id-reused",
+                    {"invoke": pdu.invoke_id, "first": earlier.index},
+                    (earlier.index,),
+                )
+            ]
         return asked, list(self._count(side))
 
     def _count(self, side: str) -> Iterator[Breach]:
         limit = self.negotiated.outstanding.get(side) if self.negotiated else None
         mine = [a for a in self.asked.values() if a.side == side]
         if limit is not None and len(mine) == limit + 1:
-            yield Breach("protocol.too-many-outstanding", {"count": len(mine), "side": side, "limit": limit}, tuple(a.index for a in mine[:-1]))
+            yield Breach(
+                "protocol.too-many-outstanding",
+                {"count": len(mine), "side": side, "limit": limit},
+                tuple(a.index for a in mine[:-1]),
+            )
 
     def _free_slot(self) -> str:
         used = {asked.slot for asked in self.asked.values()}
@@ -99,7 +109,9 @@ class Association:
         asked = self.asked.get(key)
         if asked is None:
             unasked = self.begun and pdu.kind in ANSWERS
-            return None, [Breach("protocol.unasked", {"side": side, "invoke": pdu.invoke_id})] if unasked else []
+            return None, [
+                Breach("protocol.unasked", {"side": side, "invoke": pdu.invoke_id})
+            ] if unasked else []
         if pdu.kind == "confirmed-ResponsePDU" and pdu.service != asked.pdu.service:
             del self.asked[key]
             words = {"asked": title(str(asked.pdu.service)), "answered": title(str(pdu.service))}
@@ -117,8 +129,16 @@ class Association:
         if listed is None:
             return
         if pdu.kind == "confirmed-ResponsePDU" and service not in listed:
-            yield Breach("negotiation.additional" if service in ADDITIONAL else "negotiation.service", words, (asked.index,))
-        if pdu.kind == "rejectPDU" and service in listed and pdu.body["rejectReason"] == ("confirmed-request", 1):
+            yield Breach(
+                "negotiation.additional" if service in ADDITIONAL else "negotiation.service",
+                words,
+                (asked.index,),
+            )
+        if (
+            pdu.kind == "rejectPDU"
+            and service in listed
+            and pdu.body["rejectReason"] == ("confirmed-request", 1)
+        ):
             yield Breach("negotiation.rejected", words, (asked.index,))
 
     def propose(self, pdu: Pdu) -> None:
@@ -137,26 +157,36 @@ class Association:
         return [] if proposed is None else list(_reduced(proposed, body))
 
 
-def _negotiated(body: Mapping[str, Any], called: Mapping[str, Any], calling: Mapping[str, Any] | None) -> Negotiated:
-    found = Negotiated(outstanding={"client": body["negotiatedMaxServOutstandingCalling"], "server": body["negotiatedMaxServOutstandingCalled"]})
+def _negotiated(
+    body: Mapping[str, Any], called: Mapping[str, Any], calling: Mapping[str, Any] | None
+) -> Negotiated:
+    found = Negotiated(
+        outstanding={
+            "client": body["negotiatedMaxServOutstandingCalling"],
+            "server": body["negotiatedMaxServOutstandingCalled"],
+        }
+    )
     for side, detail, suffix in (("server", called, "Called"), ("client", calling or {}, "Calling")):
         if f"servicesSupported{suffix}" in detail:
             found.services[side] = bits("ServiceSupportOptions", detail[f"servicesSupported{suffix}"])
         if f"additionalSupported{suffix}" in detail:
             listed = bits("AdditionalSupportOptions", detail[f"additionalSupported{suffix}"])
-            found.additional[side] = frozenset("alterPI" if bit.startswith("alter") else bit for bit in listed)
+            found.additional[side] = frozenset(
+                "alterPI" if bit.startswith("alter") else bit for bit in listed
+            )
     return found
 
 
 def _reduced(proposed: Mapping[str, Any], body: Mapping[str, Any]) -> Iterator[Breach]:
     """Negotiation may only reduce what was proposed."""
     for word in ("Calling", "Called"):
-        wanted, given = proposed[f"proposedMaxServOutstanding{word}"], body[f"negotiatedMaxServOutstanding{word}"]
+        wanted, given = (
+            proposed[f"proposedMaxServOutstanding{word}"],
+            body[f"negotiatedMaxServOutstanding{word}"],
+        )
         if given > wanted:
             yield Breach("negotiation.outstanding", {"negotiated": given, "proposed": wanted})
     wanted = proposed.get("initRequestDetail", {}).get("proposedVersionNumber")
     given = body.get("initResponseDetail", {}).get("negotiatedVersionNumber")
     if wanted is not None and given is not None and not 1 <= given <= wanted:
         yield Breach("negotiation.version", {"negotiated": given, "proposed": wanted})
-
-

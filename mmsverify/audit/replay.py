@@ -60,13 +60,20 @@ class Replay:
             sizes = {"PI": len(self.profile.get("predefined", ())), "Client": 0, "Request": 0}
             _, facts = scenario(sizes, self.profile)
             base = frozenset(name for owner, name in self._base_only if owner == vmd)
-            self._devices[vmd] = Device(Place(self.trace.path, vmd), Belief(self.model, facts), self._arms(), base)
+            self._devices[vmd] = Device(
+                Place(self.trace.path, vmd), Belief(self.model, facts), self._arms(), base
+            )
         return self._devices[vmd]
 
     def _arms(self) -> frozenset[str]:
         """The domains that represent an arm: those of the program invocations that the profile calls arms."""
         arms = set(self.profile.get("arms", ()))
-        return frozenset(d for entry in self.profile.get("predefined", ()) if entry["name"] in arms for d in entry.get("domains", ()))
+        return frozenset(
+            d
+            for entry in self.profile.get("predefined", ())
+            if entry["name"] in arms
+            for d in entry.get("domains", ())
+        )
 
 
 def _robot_model(model: str | None) -> str:

@@ -50,7 +50,11 @@ def _arguments(pdu: Pdu, arms: frozenset[str]) -> dict[str, Any] | None:
             return {"pi": body["programInvocationName"]}
         case "select":
             listed = body.get("controlled", [])
-            return {"controlling": body.get("controlling"), "controlled": frozenset(listed), "named_twice": len(set(listed)) < len(listed)}
+            return {
+                "controlling": body.get("controlling"),
+                "controlled": frozenset(listed),
+                "named_twice": len(set(listed)) < len(listed),
+            }
         case "alterPI":
             return {"pi": body["programInvocation"], **_limit(body["startCount"])}
         case "vMDStop" | "vMDReset":
@@ -120,10 +124,20 @@ def shown_by_attributes(name: str, body: Mapping[str, Any], detail: Mapping[str,
 
 def _control(detail: Mapping[str, Any] | None) -> dict[str, Any]:
     kind, content = detail["control"] if detail is not None else ("normal", None)
-    shown: dict[str, Any] = {"shown_control": kind.upper(), "listed": frozenset(), "controller_is": None, "shown_mode": None, "shown_count": 0}
+    shown: dict[str, Any] = {
+        "shown_control": kind.upper(),
+        "listed": frozenset(),
+        "controller_is": None,
+        "shown_mode": None,
+        "shown_count": 0,
+    }
     if kind == "controlling":
         mode, count = content["runningMode"]
-        shown |= {"listed": frozenset(content["controlledPI"]), "shown_mode": words.MODE[mode], "shown_count": count or 0}
+        shown |= {
+            "listed": frozenset(content["controlledPI"]),
+            "shown_mode": words.MODE[mode],
+            "shown_count": count or 0,
+        }
     elif kind == "controlled":
         shown["controller_is"] = content[1]
     return shown
@@ -152,7 +166,13 @@ class Failure:
 def failure(pdu: Pdu) -> Failure:
     """What a confirmed-ErrorPDU says about the failure."""
     cause = error_class_code(pdu.body)
-    local = cause.class_name in {"resource", "others", "application-reference", "time-resolution", "service-preempt"}
+    local = cause.class_name in {
+        "resource",
+        "others",
+        "application-reference",
+        "time-resolution",
+        "service-preempt",
+    }
     local = local or (cause.class_name == "vmd-state" and cause.code in (0, 2, 3))
     unknown = (cause.class_name, cause.code) in {("access", 2), ("definition", 1)}
     state = None

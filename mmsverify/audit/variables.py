@@ -40,7 +40,9 @@ VARIABLES = {
     "R_SF": Variable("R-8.5.5.13-1", "floating-point"),
     "R_PSTU": Variable("R-8.5.5.14-1", "floating-point"),
 }
-DOMAIN_SPECIFIC = frozenset({"R_DPWR", "R_DCAL", "R_DLOCAL", "R_NJ", "R_JT", "R_JCAL", "R_JBK", "R_JBD", "R_AJV"})
+DOMAIN_SPECIFIC = frozenset(
+    {"R_DPWR", "R_DCAL", "R_DLOCAL", "R_NJ", "R_JT", "R_JCAL", "R_JBK", "R_JBD", "R_AJV"}
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,7 +61,9 @@ def judge(name: str, data: tuple[str, Any]) -> Iterator[VariableBreach]:
     clause = Clause.of(variable.clause, "R-6.3.8.2-1")
     kind, content = data
     if variable.array and kind != "array":
-        yield VariableBreach(Breach("variable.type", {"variable": name, "kind": kind, "wanted": "array"}), clause)
+        yield VariableBreach(
+            Breach("variable.type", {"variable": name, "kind": kind, "wanted": "array"}), clause
+        )
         return
     for item in content if variable.array else [data]:
         yield from (VariableBreach(breach, clause) for breach in _item(name, variable, item))
@@ -75,7 +79,10 @@ def _item(name: str, variable: Variable, item: tuple[str, Any]) -> Iterator[Brea
     if kind != variable.kind and not (kind in _INTEGERS and variable.kind in _INTEGERS):
         yield Breach("variable.type", {"variable": name, "kind": kind, "wanted": variable.kind})
     elif variable.among and content not in variable.among:
-        yield Breach("variable.value", {"variable": name, "value": content, "wanted": ", ".join(map(str, variable.among))})
+        yield Breach(
+            "variable.value",
+            {"variable": name, "value": content, "wanted": ", ".join(map(str, variable.among))},
+        )
 
 
 def shows(name: str, data: tuple[str, Any]) -> Call | None:

@@ -1,12 +1,12 @@
 """The modelling language: expression rows in a class body. Imports the standard library only.
 
-    from mmsverify.model import *
+from mmsverify.model import *
 
-    class Lamp(Model, name="lamp"):
-        lit = Relation()
-        press = Transition("L-1", on=internal("press"), when=[~lit()], then=[lit().becomes(True)])
-        dark_at_first = Initially("L-0", ~lit())
-        can_be_lit = Sometimes("L-2", lit())
+class Lamp(Model, name="lamp"):
+    lit = Relation()
+    press = Transition("L-1", on=internal("press"), when=[~lit()], then=[lit().becomes(True)])
+    dark_at_first = Initially("L-0", ~lit())
+    can_be_lit = Sometimes("L-2", lit())
 """
 
 from mmsverify.model.claims import Always, Assume, Initially, Removed, Sometimes, Step, Unspecified

@@ -16,10 +16,14 @@ class ClaimSource(Declared):
 
     kind: Literal["always", "sometimes", "step"]
 
-    def __init__(self, clause: str, condition: Term | bool, *cites: str, says: str = "", repairs: Repair | None = None) -> None:
+    def __init__(
+        self, clause: str, condition: Term | bool, *cites: str, says: str = "", repairs: Repair | None = None
+    ) -> None:
         self.place = caller()
         if not isinstance(clause, str) or not clause:
-            raise mistake("a claim without a clause", f"write {type(self).__name__}('R-...', formula)", self.place)
+            raise mistake(
+                "a claim without a clause", f"write {type(self).__name__}('R-...', formula)", self.place
+            )
         self.clause = Clause.of(clause, *cites)
         self.formula = formula(condition)
         self.says = says
@@ -53,7 +57,9 @@ class Step(ClaimSource):
 class Initially(Declared):
     """A condition on the state at power-on."""
 
-    def __init__(self, clause: str, condition: Term | bool, *cites: str, repairs: Repair | None = None) -> None:
+    def __init__(
+        self, clause: str, condition: Term | bool, *cites: str, repairs: Repair | None = None
+    ) -> None:
         self.place = caller()
         self.conjunct = Conjunct(formula(condition), Clause.of(clause, *cites))
         self.repairs = repairs

@@ -110,7 +110,10 @@ class Place(Term):
         """The update of this cell; ``value`` reads the state before the step."""
         target = self.expr
         if not isinstance(target, Cell):
-            raise mistake(f"'{ex.shown(target)}' is a definition, not a variable", "update the variables that it is made of")
+            raise mistake(
+                f"'{ex.shown(target)}' is a definition, not a variable",
+                "update the variables that it is made of",
+            )
         return Assign(target.variable, target.args, value_of(value, target.of), place=caller())
 
     @property
@@ -127,7 +130,14 @@ class Variable(Declared):
     the arguments, or a literal; ``None`` leaves it open (see ``Initially``).
     """
 
-    def __init__(self, sort: type[Enumeration] | Sort, of: Each | tuple[Each, ...] = (), *, rigid: bool = False, doc: str = "") -> None:
+    def __init__(
+        self,
+        sort: type[Enumeration] | Sort,
+        of: Each | tuple[Each, ...] = (),
+        *,
+        rigid: bool = False,
+        doc: str = "",
+    ) -> None:
         self.of = of if isinstance(of, tuple) else (of,)
         self.value_sort = sort if isinstance(sort, Sort) else enumeration(sort)
         self.rigid = rigid
@@ -147,7 +157,9 @@ class Variable(Declared):
         return self[()]
 
     def __bool__(self) -> bool:
-        raise mistake(f"the variable {self.name} is used as a truth value", f"write {self.name}[...] with &, |, ~ or >>")
+        raise mistake(
+            f"the variable {self.name} is used as a truth value", f"write {self.name}[...] with &, |, ~ or >>"
+        )
 
 
 def relation(*of: Each, rigid: bool = False, doc: str = "") -> Variable:
@@ -172,7 +184,9 @@ def _kept(variable: Variable) -> Expr:
 class Derived(Declared):
     """A definition: a name for an expression over the variables, never stored and never updated."""
 
-    def __init__(self, definition: Any, *, over: Iterable[Element] = (), repairs: object = None, doc: str = "") -> None:
+    def __init__(
+        self, definition: Any, *, over: Iterable[Element] = (), repairs: object = None, doc: str = ""
+    ) -> None:
         self.parameters = tuple(e.ref for e in over)
         self.definition: Expr = definition.expr
         self.repairs = repairs

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
 
-from mmsverify.model.sorts import BOOL, ElementSort, EnumSort, Enumeration, IntSort, Sort, integer
+from mmsverify.model.sorts import BOOL, ElementSort, Enumeration, EnumSort, IntSort, Sort, integer
 
 
 class Expr:
@@ -296,9 +296,7 @@ def choice(condition: Expr, then: Expr, otherwise: Expr) -> Expr:
     if then == otherwise:
         return then
     if then.sort is BOOL:
-        return conjunction(
-            disjunction(negation(condition), then), disjunction(condition, otherwise)
-        )
+        return conjunction(disjunction(negation(condition), then), disjunction(condition, otherwise))
     return Ite(condition, then, otherwise)
 
 

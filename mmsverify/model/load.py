@@ -21,7 +21,10 @@ def load(name_or_path: str, folder: Path, variant: str | None = None) -> ModelDa
     variants = load_variants(name_or_path, folder)
     wanted = variant or ("repaired" if "repaired" in variants else next(iter(variants)))
     if wanted not in variants:
-        raise UsageError(f"the model {name_or_path} has no variant {wanted}", cure=f"use one of {', '.join(sorted(variants))}")
+        raise UsageError(
+            f"the model {name_or_path} has no variant {wanted}",
+            cure=f"use one of {', '.join(sorted(variants))}",
+        )
     return assemble(variants[wanted])
 
 
@@ -29,11 +32,17 @@ def load_variants(name_or_path: str, folder: Path) -> dict[str, type[Model]]:
     """The model classes of a file by variant: those that state a ``variant``, or else the last class of the file."""
     path = find(name_or_path, folder)
     module = _execute(path)
-    classes = [c for c in vars(module).values() if isinstance(c, type) and issubclass(c, Model) and c is not Model]
+    classes = [
+        c for c in vars(module).values() if isinstance(c, type) and issubclass(c, Model) and c is not Model
+    ]
     stated = {str(c.options["variant"]): c for c in classes if "variant" in c.options}
     if stated or not classes:
         if not stated:
-            raise ModelError("no model in this file", place=str(path), cure="write a class that extends mmsverify.model.Model")
+            raise ModelError(
+                "no model in this file",
+                place=str(path),
+                cure="write a class that extends mmsverify.model.Model",
+            )
         return stated
     own = [c for c in classes if c.__module__ == module.__name__] or classes
     return {"as-written": own[-1]}
@@ -55,7 +64,10 @@ def find(name_or_path: str, folder: Path) -> Path:
         if stem.isidentifier() and path.is_file():
             return path
     known = ", ".join(names(folder)) or "none"
-    raise UsageError(f"no model named or filed as {name_or_path!r}", cure=f"give a path to a model file, or one of: {known}")
+    raise UsageError(
+        f"no model named or filed as {name_or_path!r}",
+        cure=f"give a path to a model file, or one of: {known}",
+    )
 
 
 def _execute(path: Path) -> ModuleType:
@@ -65,7 +77,9 @@ def _execute(path: Path) -> ModuleType:
     name = f"mmsverify_models.{stem}_{abs(hash(str(path.resolve())))}"
     if name in sys.modules:
         return sys.modules[name]
-    spec = importlib.util.spec_from_file_location(name, path, submodule_search_locations=[str(path.parent)] if package else None)
+    spec = importlib.util.spec_from_file_location(
+        name, path, submodule_search_locations=[str(path.parent)] if package else None
+    )
     if spec is None or spec.loader is None:
         raise ModelError("not a Python file", place=str(path), cure="a model is a .py file or a package")
     module = importlib.util.module_from_spec(spec)
@@ -77,12 +91,18 @@ def _execute(path: Path) -> ModuleType:
         raise
     except SyntaxError as error:
         _forget(name)
-        raise ModelError(f"not valid Python: {error.msg}", place=f"{error.filename}:{error.lineno}", cure="mend the syntax") from None
+        raise ModelError(
+            f"not valid Python: {error.msg}", place=f"{error.filename}:{error.lineno}", cure="mend the syntax"
+        ) from None
     except Exception as error:
         _forget(name)
-        line = [f for f in traceback.extract_tb(error.__traceback__) if f.filename.startswith(str(path.parent))][-1:]
+        line = [
+            f for f in traceback.extract_tb(error.__traceback__) if f.filename.startswith(str(path.parent))
+        ][-1:]
         place = f"{line[0].filename}:{line[0].lineno}" if line else str(path)
-        raise ModelError(f"{type(error).__name__}: {error}", place=place, cure="mend this line of the model file") from None
+        raise ModelError(
+            f"{type(error).__name__}: {error}", place=place, cure="mend this line of the model file"
+        ) from None
     return module
 
 

@@ -43,13 +43,25 @@ class _Body(dict[str, Any]):
     def _check(self, name: str, value: Declared) -> None:
         earlier = self.get(name)
         if isinstance(earlier, Declared):
-            raise mistake(f"the name {name} is declared twice in {self.title} (first at {earlier.place})", "give one of them another name", value.place)
+            raise mistake(
+                f"the name {name} is declared twice in {self.title} (first at {earlier.place})",
+                "give one of them another name",
+                value.place,
+            )
         repairs: Repair | None = getattr(value, "repairs", None)
         known = self.inherited.get(name)
         if known is not None and repairs is None:
-            raise mistake(f"{name} replaces the declaration at {known.place} without a reason", "add repairs=repaired('RP-..', 'R-...', because='...')", value.place)
+            raise mistake(
+                f"{name} replaces the declaration at {known.place} without a reason",
+                "add repairs=repaired('RP-..', 'R-...', because='...')",
+                value.place,
+            )
         if known is None and isinstance(value, Removed):
-            raise mistake(f"{name} is removed but never declared", "name a declaration of the model that this one extends", value.place)
+            raise mistake(
+                f"{name} is removed but never declared",
+                "name a declaration of the model that this one extends",
+                value.place,
+            )
 
 
 class _Assembler(type):
@@ -61,7 +73,9 @@ class _Assembler(type):
 
     @classmethod
     def __prepare__(mcs, title: str, bases: tuple[type, ...], /, **_options: Any) -> _Body:
-        words = {name: value for base in reversed(bases) for name, value in getattr(base, "words", {}).items()}
+        words = {
+            name: value for base in reversed(bases) for name, value in getattr(base, "words", {}).items()
+        }
         return _Body(title, _inherited(title, bases), words)
 
     def __new__(mcs, title: str, bases: tuple[type, ...], body: _Body, **options: Any) -> _Assembler:
@@ -91,7 +105,11 @@ def _winner(title: str, name: str, left: Declared, right: Declared, bases: tuple
     mended = [value for value in (left, right) if getattr(value, "repairs", None) is not None]
     if len(mended) != 1:
         parts = ", ".join(base.__name__ for base in bases)
-        raise mistake(f"the name {name} is declared in two parts of {title} ({parts}): {left.place} and {right.place}", "give one of them another name", left.place)
+        raise mistake(
+            f"the name {name} is declared in two parts of {title} ({parts}): {left.place} and {right.place}",
+            "give one of them another name",
+            left.place,
+        )
     return mended[0]
 
 
@@ -143,10 +161,17 @@ def assemble(source: type[Model]) -> ModelData:
     """The plain data of a model class; definitions are expanded, every name is checked."""
     declared = {n: d for n, d in source.declared.items() if not isinstance(d, Removed)}
     signatures = {
-        name: Signature(name, d.sorts, d.value_sort, d.rigid, d.doc) for name, d in declared.items() if isinstance(d, Variable)
+        name: Signature(name, d.sorts, d.value_sort, d.rigid, d.doc)
+        for name, d in declared.items()
+        if isinstance(d, Variable)
     }
     definitions = _definitions(declared, signatures)
-    rows = tuple(_expanded_row(row, definitions) for d in declared.values() if isinstance(d, RowSource) for row in d.rows())
+    rows = tuple(
+        _expanded_row(row, definitions)
+        for d in declared.values()
+        if isinstance(d, RowSource)
+        for row in d.rows()
+    )
     _check_rows(rows, signatures, definitions)
     return ModelData(
         name=str(source.options.get("name", source.__name__)),
@@ -156,11 +181,17 @@ def assemble(source: type[Model]) -> ModelData:
         signatures=signatures,
         definitions=definitions,
         rows=rows,
-        initial=tuple(_expanded(d.conjunct, definitions) for d in declared.values() if isinstance(d, Initially)),
-        assumptions=tuple(_expanded(d.conjunct, definitions) for d in declared.values() if isinstance(d, Assume)),
+        initial=tuple(
+            _expanded(d.conjunct, definitions) for d in declared.values() if isinstance(d, Initially)
+        ),
+        assumptions=tuple(
+            _expanded(d.conjunct, definitions) for d in declared.values() if isinstance(d, Assume)
+        ),
         claims=tuple(_claims(declared, definitions)),
         gaps=tuple(d.gap() for d in declared.values() if isinstance(d, Unspecified)),
-        repairs={name: d.repairs for name, d in source.declared.items() if getattr(d, "repairs", None) is not None},  # type: ignore[attr-defined]
+        repairs={
+            name: d.repairs for name, d in source.declared.items() if getattr(d, "repairs", None) is not None
+        },  # type: ignore[attr-defined]
         options=source.options,
     )
 
@@ -177,7 +208,9 @@ def _definitions(declared: Mapping[str, Declared], signatures: Mapping[str, Sign
         if name in done or name in signatures:
             return
         if name in chain:
-            raise mistake(f"the definition of {name} leads back to itself", "define it from variables", raw[name].place)
+            raise mistake(
+                f"the definition of {name} leads back to itself", "define it from variables", raw[name].place
+            )
         for used in ex.variables_of(raw[name].definition):
             resolve(used, (*chain, name))
         done[name] = (raw[name].parameters, expand(raw[name].definition, done))
@@ -201,12 +234,15 @@ def expand(expr: Expr, definitions: Definitions) -> Expr:
 
 
 def _expanded(conjunct: Conjunct, definitions: Definitions) -> Conjunct:
-    return Conjunct(expand(conjunct.condition, definitions), conjunct.clause, conjunct.rule, conjunct.says, conjunct.level)
+    return Conjunct(
+        expand(conjunct.condition, definitions), conjunct.clause, conjunct.rule, conjunct.says, conjunct.level
+    )
 
 
 def _expanded_row(row: Row, definitions: Definitions) -> Row:
     assigns = tuple(
-        replace(a, value=expand(a.value, definitions), where=expand(a.where, definitions)) for a in row.assigns
+        replace(a, value=expand(a.value, definitions), where=expand(a.where, definitions))
+        for a in row.assigns
     )
     guard = tuple(_expanded(c, definitions) for c in row.guard)
     return replace(row, guard=guard, assigns=assigns)
@@ -216,7 +252,14 @@ def _claims(declared: Mapping[str, Declared], definitions: Definitions) -> Itera
     for d in declared.values():
         if isinstance(d, ClaimSource):
             claim = d.claim()
-            yield Claim(claim.name, claim.kind, claim.clause, expand(claim.formula, definitions), claim.says, place=claim.place)
+            yield Claim(
+                claim.name,
+                claim.kind,
+                claim.clause,
+                expand(claim.formula, definitions),
+                claim.says,
+                place=claim.place,
+            )
 
 
 def _check_rows(rows: tuple[Row, ...], signatures: Mapping[str, Signature], definitions: Definitions) -> None:
@@ -224,15 +267,25 @@ def _check_rows(rows: tuple[Row, ...], signatures: Mapping[str, Signature], defi
     for row in rows:
         other = ids.setdefault(row.id, row)
         if other is not row and not (row.step and other.step):
-            raise mistake(f"two rows are called {row.id}", "give one of them another name or step label", row.place)
+            raise mistake(
+                f"two rows are called {row.id}", "give one of them another name or step label", row.place
+            )
         for assign in row.assigns:
             _check_target(assign.variable, assign.place or row.place, signatures, definitions)
 
 
-def _check_target(name: str, place: str, signatures: Mapping[str, Signature], definitions: Definitions) -> None:
+def _check_target(
+    name: str, place: str, signatures: Mapping[str, Signature], definitions: Definitions
+) -> None:
     if name in definitions:
-        raise mistake(f"{name} is a definition and cannot be updated", "update the variables that it is made of", place)
+        raise mistake(
+            f"{name} is a definition and cannot be updated", "update the variables that it is made of", place
+        )
     if name not in signatures:
-        raise mistake(f"the variable {name} is updated but not declared in this model", "declare it: x = Variable(...)", place)
+        raise mistake(
+            f"the variable {name} is updated but not declared in this model",
+            "declare it: x = Variable(...)",
+            place,
+        )
     if signatures[name].rigid:
         raise mistake(f"{name} is rigid and cannot be updated", "drop rigid=True or the update", place)

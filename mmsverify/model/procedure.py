@@ -22,7 +22,10 @@ from mmsverify.model.terms import Element, SetOf, Term, formula
 def repaired(reading: str, *mends: str, because: str) -> Repair:
     """The reason for a replaced or added row of a variant: its reading, the clauses that it mends, one sentence why."""
     if not mends or not because:
-        raise mistake(f"the repair {reading} names no clause or no reason", "write repaired('RP-..', 'R-...', because='...')")
+        raise mistake(
+            f"the repair {reading} names no clause or no reason",
+            "write repaired('RP-..', 'R-...', because='...')",
+        )
     return Repair(Clause.of(reading, *mends), because)
 
 
@@ -57,7 +60,11 @@ class Transition(RowSource):
     ) -> None:
         self.place = caller()
         if not clauses:
-            raise mistake("a row without a clause", "cite the statement that it encodes: Transition('R-...', ...)", self.place)
+            raise mistake(
+                "a row without a clause",
+                "cite the statement that it encodes: Transition('R-...', ...)",
+                self.place,
+            )
         check_distinct(then, self.place)
         self.clause = Clause.of(*clauses)
         self.on, self.answer, self.never_after = on, answer, tuple(never_after)
@@ -76,7 +83,9 @@ class Transition(RowSource):
 class Observation(RowSource):
     """What a message shows: claims that must hold of the state at some instant between request and response."""
 
-    def __init__(self, *clauses: str, on: On, shows: Sequence[Conjunct], repairs: Repair | None = None) -> None:
+    def __init__(
+        self, *clauses: str, on: On, shows: Sequence[Conjunct], repairs: Repair | None = None
+    ) -> None:
         self.place = caller()
         if not clauses:
             raise mistake("an observation without a clause", "cite the statement that it encodes", self.place)
@@ -152,7 +161,9 @@ class _Run:
         level = step.level if isinstance(step, Refuse) else "error"
         return Conjunct(condition, own, rule, step.says, level)
 
-    def _row(self, step: Step, answer: str, more: tuple[Conjunct, ...] = (), then: tuple[Assign, ...] = ()) -> Row:
+    def _row(
+        self, step: Step, answer: str, more: tuple[Conjunct, ...] = (), then: tuple[Assign, ...] = ()
+    ) -> Row:
         last = (*then, *(self.source.on_refusal if answer == MINUS else ()), *self.source.always)
         own = cited(self.source.clause, step) if answer == MINUS else self.clause
         return Row(
@@ -167,7 +178,8 @@ class _Run:
 
     def _over_start(self, assigns: Sequence[Assign]) -> tuple[Assign, ...]:
         return tuple(
-            replace(a, args=tuple(map(self.now, a.args)), value=self.now(a.value), where=self.now(a.where)) for a in assigns
+            replace(a, args=tuple(map(self.now, a.args)), value=self.now(a.value), where=self.now(a.where))
+            for a in assigns
         )
 
     def _refuse(self, step: Refuse) -> Iterator[Row]:
@@ -194,7 +206,9 @@ class _Run:
         bad, done = Element(Ref(f"bad_{step.label}", sort)), SetOf(f"done_{step.label}", sort)
         saved = self.choices
         self.choices += (bad.ref, done)
-        yield self._row(step, MINUS, (self._conjunct(step, self._fails(step, bad, done)),), self._half_done(step, done))
+        yield self._row(
+            step, MINUS, (self._conjunct(step, self._fails(step, bad, done)),), self._half_done(step, done)
+        )
         self.choices = saved
         everywhere = ex.bind(True, (step.element,), ex.disjunction(ex.negation(step.where), step.possible))
         self.passed += (self._conjunct(step, self.now(everywhere)),)
@@ -202,7 +216,9 @@ class _Run:
         self._do(handled, cited(self.source.clause, step))
 
     def _fails(self, step: ForEach, bad: Element, done: SetOf) -> Expr:
-        at_bad = ex.substitute(ex.conjunction(step.where, ex.negation(step.possible)), {step.element.name: bad.expr})
+        at_bad = ex.substitute(
+            ex.conjunction(step.where, ex.negation(step.possible)), {step.element.name: bad.expr}
+        )
         inside = ex.Member(done.name, step.element)
         handled = ex.disjunction(ex.negation(inside), ex.conjunction(step.where, step.possible))
         return self.now(ex.conjunction(at_bad, ex.bind(True, (step.element,), handled)))
@@ -218,5 +234,3 @@ class _Run:
 
 def _over(assign: Assign, element: Ref, where: Expr) -> Assign:
     return replace(assign, where=ex.conjunction(where, assign.where)).over(Element(element))
-
-

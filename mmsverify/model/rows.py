@@ -161,7 +161,9 @@ def after(expr: Expr, assigns: Sequence[Assign]) -> Expr:
         by_variable.setdefault(assign.variable, []).append(assign)
     if not by_variable:
         return expr
-    return ex.map_cells(expr, lambda cell: _updated(cell, by_variable.get(cell.variable, ())), frozenset(by_variable))
+    return ex.map_cells(
+        expr, lambda cell: _updated(cell, by_variable.get(cell.variable, ())), frozenset(by_variable)
+    )
 
 
 def _updated(cell: Cell, assigns: Sequence[Assign]) -> Expr:
@@ -199,7 +201,11 @@ def step_formula(claim: Expr, row: Row) -> Expr:
 
     facts = {"answer": row.answer, "service": row.on.service, "phase": row.on.phase, "name": row.name}
     known = {parameter.name for parameter in row.parameters}
-    absent = {name: ex.FALSE for name, ref in ex.refs_of(claim).items() if name not in known and not name.endswith(ex.BOUND)}
+    absent = {
+        name: ex.FALSE
+        for name, ref in ex.refs_of(claim).items()
+        if name not in known and not name.endswith(ex.BOUND)
+    }
     return ex.map_cells(ex.substitute(_resolved(claim, facts), absent), change)
 
 

@@ -91,7 +91,8 @@ def refuse(
     if when is None and unless is None:
         raise mistake(f"step {label} refuses without a condition", "give when=... or unless=...")
     condition = ex.conjunction(
-        ex.TRUE if when is None else formula(when), ex.TRUE if unless is None else ex.negation(formula(unless))
+        ex.TRUE if when is None else formula(when),
+        ex.TRUE if unless is None else ex.negation(formula(unless)),
     )
     return Refuse(label, cites, caller(), condition, rule, says, level, tuple(then))
 
@@ -126,7 +127,18 @@ def for_each(
     says: str = "",
 ) -> ForEach:
     """Step ``label`` handles every ``element`` for which ``where`` holds; see :class:`ForEach`."""
-    return ForEach(label, cites, caller(), element.ref, formula(where), formula(possible), tuple(body), tuple(undo), rule, says)
+    return ForEach(
+        label,
+        cites,
+        caller(),
+        element.ref,
+        formula(where),
+        formula(possible),
+        tuple(body),
+        tuple(undo),
+        rule,
+        says,
+    )
 
 
 def cited(clause: str, step: StepSource) -> Clause:

@@ -14,7 +14,15 @@ from mmsverify.model import expr as ex
 from mmsverify.model.expr import Cell, Const, Expr, Member, Present, Ref
 from mmsverify.model.place import mistake
 from mmsverify.model.sorts import (
-    BOOL, ElementSort, EnumSort, Enumeration, IntSort, Sort, enumeration, integer, same_kind,
+    BOOL,
+    ElementSort,
+    Enumeration,
+    EnumSort,
+    IntSort,
+    Sort,
+    enumeration,
+    integer,
+    same_kind,
 )  # fmt: skip
 
 
@@ -180,7 +188,10 @@ def sort_of(value: Any) -> Sort:
         return enumeration(type(value))
     if isinstance(value, int):
         return integer()
-    raise mistake(f"{value!r} is not a value of the language", "give a term, a truth value, an integer or a member of an Enumeration")
+    raise mistake(
+        f"{value!r} is not a value of the language",
+        "give a term, a truth value, an integer or a member of an Enumeration",
+    )
 
 
 def all_of(*conditions: Any) -> Term:
@@ -217,7 +228,9 @@ def value_of(value: Any, sort: Sort) -> Expr:
     """``value`` (a term or a literal) as an expression of ``sort``."""
     if isinstance(value, Term):
         if not same_kind(value.sort, sort):
-            raise mistake(f"{ex.shown(value.expr)} is of sort {value.sort}, not {sort}", "compare like with like")
+            raise mistake(
+                f"{ex.shown(value.expr)} is of sort {value.sort}, not {sort}", "compare like with like"
+            )
         return value.expr
     const = ex.literal(value, sort)
     if const is None:
@@ -246,5 +259,8 @@ def _numbers(left: Term, right: Any) -> tuple[Expr, Expr]:
 def cell(variable: str, args: tuple[Any, ...], sorts: tuple[ElementSort, ...], of: Sort) -> Cell:
     """The cell of a variable at its arguments, with the sorts checked."""
     if len(args) != len(sorts):
-        raise mistake(f"{variable} takes {len(sorts)} argument(s), not {len(args)}", f"write {variable}[{', '.join(s.short for s in sorts)}]")
+        raise mistake(
+            f"{variable} takes {len(sorts)} argument(s), not {len(args)}",
+            f"write {variable}[{', '.join(s.short for s in sorts)}]",
+        )
     return Cell(variable, tuple(value_of(arg, sort) for arg, sort in zip(args, sorts, strict=True)), of)

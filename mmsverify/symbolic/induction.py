@@ -79,7 +79,9 @@ class Prover:
         lost = {c.name for row in self.model.actions for c in self._broken(solver, row, claims, outcome)}
         outcome.proved |= {c.name for c in claims if c.name not in lost}
 
-    def _broken(self, solver: z3.Solver, row: Row, claims: Sequence[Claim], outcome: Induction) -> list[Claim]:
+    def _broken(
+        self, solver: z3.Solver, row: Row, claims: Sequence[Claim], outcome: Induction
+    ) -> list[Claim]:
         """The claims that the row may break; one query for all of them, and one each only where that fails."""
         goals = [(c, obligation(c, row)) for c in claims if may_break(row, c)]
         goals = [(c, goal) for c, goal in goals if goal != ex.TRUE]
@@ -90,12 +92,16 @@ class Prover:
         begin = time.perf_counter()
         together = self._holds(solver, ex.conjunction(*(goal for _, goal in goals))) == z3.unsat
         for claim, _ in goals:
-            outcome.seconds[claim.name] = outcome.seconds.get(claim.name, 0.0) + (time.perf_counter() - begin) / len(goals)
+            outcome.seconds[claim.name] = outcome.seconds.get(claim.name, 0.0) + (
+                time.perf_counter() - begin
+            ) / len(goals)
         broken = [] if together else [c for c, goal in goals if self._record(outcome, solver, c, row, goal)]
         solver.pop()
         return broken
 
-    def _record(self, outcome: Induction, solver: z3.Solver, claim: Claim, row: Row | None, goal: Expr) -> bool:
+    def _record(
+        self, outcome: Induction, solver: z3.Solver, claim: Claim, row: Row | None, goal: Expr
+    ) -> bool:
         """Whether the goal may fail; the obstacle is kept."""
         begin = time.perf_counter()
         answer = self._holds(solver, goal)

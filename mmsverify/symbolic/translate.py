@@ -8,18 +8,29 @@ Boolean; set-valued ones a fresh unary relation.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
 from typing import Any
 
 import z3
 
-from mmsverify.model import expr as ex
 from mmsverify.model.expr import (
-    And, Cell, Const, Eq, Expr, Ite, Less, Member, Not, Or, Plus, Present, Quantified, Ref,
+    And,
+    Cell,
+    Const,
+    Eq,
+    Expr,
+    Ite,
+    Less,
+    Member,
+    Not,
+    Or,
+    Plus,
+    Present,
+    Quantified,
+    Ref,
 )  # fmt: skip
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Claim, Row, Signature, after, step_formula
-from mmsverify.model.sorts import BoolSort, ElementSort, EnumSort, Enumeration, IntSort, Sort
+from mmsverify.model.sorts import BoolSort, ElementSort, Enumeration, EnumSort, IntSort, Sort
 from mmsverify.model.terms import SetOf
 
 _SERIAL = itertools.count()
@@ -55,7 +66,9 @@ class Translator:
             return z3.DeclareSort(sort.name)
         assert isinstance(sort, EnumSort)
         # Z3 keeps enumeration names for the life of its context, hence the serial number.
-        made, members = z3.EnumSort(f"{sort.name}!{self._serial}", [f"{sort.name}.{m.name}!{self._serial}" for m in sort.members])
+        made, members = z3.EnumSort(
+            f"{sort.name}!{self._serial}", [f"{sort.name}.{m.name}!{self._serial}" for m in sort.members]
+        )
         self._literals.update(zip(sort.members, members, strict=True))
         return made
 
@@ -131,12 +144,19 @@ class Translator:
 
     def bounds(self, state: str = "") -> list[z3.BoolRef]:
         """What the declared bounds of integer variables say."""
-        return [b for s in self.model.signatures.values() if isinstance(s.of, IntSort) for b in self._bound(s, s.of, state)]
+        return [
+            b
+            for s in self.model.signatures.values()
+            if isinstance(s.of, IntSort)
+            for b in self._bound(s, s.of, state)
+        ]
 
     def _bound(self, signature: Signature, sort: IntSort, state: str) -> list[z3.BoolRef]:
         names = [z3.Const(f"b{i}", self.sort(s)) for i, s in enumerate(signature.sorts)]
         value = self.function(signature.name, state)(*names)
-        limits = ([] if sort.low is None else [value >= sort.low]) + ([] if sort.high is None else [value <= sort.high])
+        limits = ([] if sort.low is None else [value >= sort.low]) + (
+            [] if sort.high is None else [value <= sort.high]
+        )
         return [z3.ForAll(names, limit) if names else limit for limit in limits]
 
 

@@ -1,16 +1,18 @@
 """What stands before every service procedure in the repaired reading: local control and logical status (RP-10, RP-11)."""
 
-from .vocabulary import Logical
-
 from mmsverify.model import refuse
 from mmsverify.model.steps import Refuse
 from mmsverify.model.terms import Term
+
+from .vocabulary import Logical
 
 EVERYTHING = (Logical.STATE_CHANGES_ALLOWED,)
 ALL_BUT_RUNNING = (Logical.STATE_CHANGES_ALLOWED, Logical.SUPPORT_SERVICES_ALLOWED)
 
 
-def admission(service: str, panel: Term, local_control: Term, logical: Term, admitting: tuple[Logical, ...]) -> list[Refuse]:
+def admission(
+    service: str, panel: Term, local_control: Term, logical: Term, admitting: tuple[Logical, ...]
+) -> list[Refuse]:
     """The refusals before step a): from a client in local control, from the panel without it, in a status that forbids it.
 
     ``admitting`` are the logical statuses in which the base standard admits the service.

@@ -1,8 +1,8 @@
 """Associations and the semaphore R_CTRL (5.1.3, 8.6.1, 9.2.2)."""
 
-from .vocabulary import Vocabulary
-
 from mmsverify.model import Procedure, Transition, accept, do, for_some, refuse, repaired, response
+
+from .vocabulary import Vocabulary
 
 
 class Associations(Vocabulary):

@@ -4,12 +4,21 @@ An indication enters the transient state, the response leaves it; between the tw
 remembers which request did so: another request that finds the transient state is refused and must not leave it.
 """
 
-from .admission import EVERYTHING, admission
-from .vocabulary import Control, Mode, RobotState, State, Vocabulary
-
 from mmsverify.model import (
-    Procedure, Transition, accept, any_of, do, for_each, if_, indication, may, refuse, response,
+    Procedure,
+    Transition,
+    accept,
+    any_of,
+    do,
+    for_each,
+    if_,
+    indication,
+    may,
+    refuse,
+    response,
 )  # fmt: skip
+
+from .vocabulary import Control, Mode, RobotState, State, Vocabulary
 
 
 class Execution(Vocabulary):
@@ -86,7 +95,8 @@ class Execution(Vocabulary):
         then=[state[pi].becomes(State.RESUMING), entered[request, p].becomes(p == pi).over(p)],
     )  # fmt: skip
     nothing_left = any_of(
-        (mode[pi] == Mode.CYCLE_LIMITED) & (cycles[pi] == 0), (mode[pi] == Mode.STEP_LIMITED) & (steps[pi] == 0)
+        (mode[pi] == Mode.CYCLE_LIMITED) & (cycles[pi] == 0),
+        (mode[pi] == Mode.STEP_LIMITED) & (steps[pi] == 0),
     )
     resume = Procedure(
         "R-7.3.3.5.3",

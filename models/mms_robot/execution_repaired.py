@@ -1,16 +1,31 @@
 """Starting, stopping, resuming and resetting, repaired: all checks first, motion enabled told, MOTION-PAUSED can be left (7.3.3.3 to 7.3.3.6)."""
 
+from mmsverify.model import (
+    MINUS,
+    Procedure,
+    Transition,
+    accept,
+    do,
+    for_all,
+    for_some,
+    if_,
+    internal,
+    refuse,
+    repaired,
+    response,
+)
+
 from .admission import ALL_BUT_RUNNING, EVERYTHING, admission
 from .execution import Execution
 from .vocabulary import Mode, State, VocabularyRepaired
-
-from mmsverify.model import MINUS, Procedure, Transition, accept, do, for_all, for_some, if_, internal, refuse, repaired, response
 
 
 class ExecutionRepaired(Execution, VocabularyRepaired):
     """The repaired reading."""
 
-    paused = ~motion() & ~intervention()  # ROBOT-MOTION-PAUSED, of a selected program invocation that has been started (RP-12)
+    paused = (
+        ~motion() & ~intervention()
+    )  # ROBOT-MOTION-PAUSED, of a selected program invocation that has been started (RP-12)
     drives_arm = for_some(c)(controls[pi, c] & arm[c])
     all_can_run = for_all(c)(controls[pi, c] >> can_run)
     calibration_runs = for_some(p)(calibrates[p] & started[p])

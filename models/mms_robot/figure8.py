@@ -1,8 +1,8 @@
 """Figure 8 (5.3.1.3.1): each of its transitions can be taken, each robot state is reached, and no other transition happens."""
 
-from .vocabulary import RobotState, Vocabulary, VocabularyRepaired
-
 from mmsverify.model import Sometimes, Step, any_of, repaired, service_is
+
+from .vocabulary import RobotState, Vocabulary, VocabularyRepaired
 
 
 class Figure8(Vocabulary):
@@ -49,7 +49,8 @@ class Figure8(Vocabulary):
         (before == RobotState.LOADED) & later.isin([RobotState.IDLE, RobotState.READY]),
         (before == RobotState.READY) & later.isin([RobotState.LOADED, RobotState.EXECUTING, RobotState.IDLE]),
         (before == RobotState.EXECUTING) & later.isin([RobotState.LOADED, RobotState.MOTION_PAUSED]),
-        (before == RobotState.MOTION_PAUSED) & later.isin([RobotState.READY, RobotState.EXECUTING, RobotState.IDLE]),
+        (before == RobotState.MOTION_PAUSED)
+        & later.isin([RobotState.READY, RobotState.EXECUTING, RobotState.IDLE]),
         later == RobotState.INTERVENTION,
         before == RobotState.INTERVENTION,
     )

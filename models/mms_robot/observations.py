@@ -1,8 +1,8 @@
 """What Status, UnsolicitedStatus, GetProgramInvocationAttributes and variables show of the state (6.3.8, 7.3.2, 7.3.3.9, 8.3)."""
 
-from .vocabulary import Control, Logical, Mode, Physical, RobotState, State, Vocabulary
-
 from mmsverify.model import BOOL, Observation, for_all, integer, needs, optional, parameter, shown
+
+from .vocabulary import Control, Logical, Mode, Physical, RobotState, State, Vocabulary
 
 
 class Observations(Vocabulary):

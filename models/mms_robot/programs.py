@@ -3,12 +3,23 @@
 Each part states the text as it stands, then the repaired reading of the same clauses.
 """
 
+from mmsverify.model import (
+    Procedure,
+    Transition,
+    accept,
+    do,
+    for_some,
+    if_,
+    integer,
+    internal,
+    parameter,
+    refuse,
+    repaired,
+    response,
+)  # fmt: skip
+
 from .admission import ALL_BUT_RUNNING, EVERYTHING, admission
 from .vocabulary import Control, Mode, RobotState, State, Vocabulary, VocabularyRepaired
-
-from mmsverify.model import (
-    Procedure, Transition, accept, do, for_some, if_, integer, internal, parameter, refuse, repaired, response,
-)  # fmt: skip
 
 
 class Programs(Vocabulary):

@@ -1,11 +1,16 @@
 """The claims that the repaired reading states otherwise, and the invariants that it adds so that the others follow."""
 
+from mmsverify.model import (
+    Always,
+    Derived,
+    Initially,
+    any_of,
+    for_all,
+    repaired,
+)  # fmt: skip
+
 from .properties import Properties
 from .vocabulary import Control, Logical, Physical, RobotState, State, VocabularyRepaired
-
-from mmsverify.model import (
-    Always, Derived, Initially, Step, all_of, any_of, for_all, for_some, repaired, service_is, unchanged,
-)  # fmt: skip
 
 
 class PropertiesRepaired(Properties, VocabularyRepaired):

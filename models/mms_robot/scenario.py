@@ -11,7 +11,9 @@ DEFAULT = (
 )
 
 
-def scenario(sizes: Mapping[str, int], profile: Mapping[str, Any]) -> tuple[dict[str, tuple[str, ...]], dict[tuple[str, tuple[str, ...]], Any]]:
+def scenario(
+    sizes: Mapping[str, int], profile: Mapping[str, Any]
+) -> tuple[dict[str, tuple[str, ...]], dict[tuple[str, tuple[str, ...]], Any]]:
     """Element names for each sort and the facts about them.
 
     The first program invocations are the predefined ones of the profile, as many as fit; the others are there to be created.
@@ -36,7 +38,9 @@ def scenario(sizes: Mapping[str, int], profile: Mapping[str, Any]) -> tuple[dict
     return elements, facts
 
 
-def attributes(name: str, entry: Mapping[str, Any] | None, profile: Mapping[str, Any]) -> dict[tuple[str, tuple[str, ...]], Any]:
+def attributes(
+    name: str, entry: Mapping[str, Any] | None, profile: Mapping[str, Any]
+) -> dict[tuple[str, tuple[str, ...]], Any]:
     """What is fixed about one program invocation; ``entry`` is its place among the predefined ones, if it has one."""
     given = entry or {}
     return {

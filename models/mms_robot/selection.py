@@ -1,21 +1,39 @@
 """Selecting and deselecting the controlling program invocation (7.4.4), and the IDLE sub-states of figure 10 (6.3.3)."""
 
+from mmsverify.model import (
+    Derived,
+    Procedure,
+    Transition,
+    accept,
+    do,
+    for_all,
+    for_some,
+    indication,
+    refuse,
+    repaired,
+    response,
+)  # fmt: skip
+
 from .admission import ALL_BUT_RUNNING, admission
 from .vocabulary import Control, RobotState, State, Vocabulary, VocabularyRepaired
-
-from mmsverify.model import (
-    Derived, Procedure, Transition, accept, do, for_all, for_some, indication, refuse, repaired, response,
-)  # fmt: skip
 
 
 class Selection(Vocabulary):
     """As written."""
 
     # The sub-states of IDLE of a controlling program invocation (figure 10): transient ones last from indication to response.
-    not_selected = Derived((state[p] == State.IDLE) & (control[p] == Control.CONTROLLING) & ~selected[p] & ~for_some(q)(selecting[q, p]), over=[p])
+    not_selected = Derived(
+        (state[p] == State.IDLE)
+        & (control[p] == Control.CONTROLLING)
+        & ~selected[p]
+        & ~for_some(q)(selecting[q, p]),
+        over=[p],
+    )
     being_selected = Derived((state[p] == State.IDLE) & ~selected[p] & for_some(q)(selecting[q, p]), over=[p])
     idle_selected = Derived((state[p] == State.IDLE) & selected[p] & ~for_some(q)(selecting[q, p]), over=[p])
-    being_deselected = Derived((state[p] == State.IDLE) & selected[p] & for_some(q)(selecting[q, p]), over=[p])
+    being_deselected = Derived(
+        (state[p] == State.IDLE) & selected[p] & for_some(q)(selecting[q, p]), over=[p]
+    )
 
     t101 = Transition(
         "R-6.3.3-t101", "R-6.3.3-1",
@@ -30,7 +48,10 @@ class Selection(Vocabulary):
         then=[selecting[request, p].becomes(selected[p]).over(p)],
     )  # fmt: skip
 
-    unfit = for_some(c)(controlled.has(c) & ~((control[c] == Control.CONTROLLED) & for_all(a)(controller[c, a] >> selected[a])))
+    unfit = for_some(c)(
+        controlled.has(c)
+        & ~((control[c] == Control.CONTROLLED) & for_all(a)(controller[c, a] >> selected[a]))
+    )
     selected_active = for_some(a)(selected[a] & (state[a] != State.IDLE))
 
     select = Procedure(

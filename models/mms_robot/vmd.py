@@ -1,8 +1,8 @@
 """The VMD: VMD Stop, VMD Reset, emergency action, the operator, local control and the two statuses (7.4.2, 7.4.3, 5.3.1.3.3.13, Table 1)."""
 
-from .vocabulary import Logical, Physical, RobotState, State, Vocabulary, VocabularyRepaired
-
 from mmsverify.model import Procedure, Transition, accept, do, if_, internal, refuse, repaired, response
+
+from .vocabulary import Logical, Physical, RobotState, State, Vocabulary, VocabularyRepaired
 
 
 class Vmd(Vocabulary):

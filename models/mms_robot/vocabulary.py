@@ -5,7 +5,19 @@ facts whose agreement is a property and not a given. NONE and UNCONTROLLED are "
 """
 
 from mmsverify.model import (
-    BOOL, Derived, Each, Enumeration, Model, Relation, Variable, for_some, if_, integer, optional, parameter, repaired,
+    BOOL,
+    Derived,
+    Each,
+    Enumeration,
+    Model,
+    Relation,
+    Variable,
+    for_some,
+    if_,
+    integer,
+    optional,
+    parameter,
+    repaired,
 )  # fmt: skip
 
 
@@ -110,7 +122,9 @@ class Vocabulary(Model):
     # Associations, the semaphore R_CTRL (8.6.1), outstanding requests.
     associated = Relation(Client)
     holder = Relation(Client, doc="owns the one token of R_CTRL")
-    entered = Relation(Request, PI, doc="this request's indication brought the program invocation into its transient state")
+    entered = Relation(
+        Request, PI, doc="this request's indication brought the program invocation into its transient state"
+    )
     selecting = Relation(Request, PI, doc="a Select indication of it is being handled: figure 10, 101 or 104")
 
     p, a, b, c = PI.elements("p a b c")
@@ -143,9 +157,13 @@ class Vocabulary(Model):
     to_unrunnable = PI.some("to_unrunnable")
 
     exists = Derived(state[p] != State.NON_EXISTENT, over=[p])
-    some_controlling = Derived(for_some(p)((state[p] != State.NON_EXISTENT) & (control[p] == Control.CONTROLLING)))
+    some_controlling = Derived(
+        for_some(p)((state[p] != State.NON_EXISTENT) & (control[p] == Control.CONTROLLING))
+    )
     some_selected = Derived(for_some(p)(selected[p]))
-    started = Derived(~state[p].isin([State.NON_EXISTENT, State.UNRUNNABLE, State.IDLE, State.STARTING]), over=[p])
+    started = Derived(
+        ~state[p].isin([State.NON_EXISTENT, State.UNRUNNABLE, State.IDLE, State.STARTING]), over=[p]
+    )
     active = Derived(started[p] & (state[p] != State.STOPPED) | (state[p] == State.STARTING), over=[p])
     runs = Derived(state[p].isin([State.RUNNING, State.STOPPING]), over=[p])
     selected_started = Derived(for_some(p)(selected[p] & started[p]))

@@ -15,7 +15,6 @@ from mmsverify.concrete.belief.truth import ABSENT, Env
 from mmsverify.concrete.belief.values import NO, YES, Known, join
 from mmsverify.model.rows import Clause, Conjunct, Row
 
-
 LARGEST_TABLE = 128
 
 
@@ -30,7 +29,9 @@ class Refusal:
     invariant: Clause = field(default_factory=lambda: Clause(()))
 
 
-def satisfy(row: Row, state: Partial, env: Env, constraints: Constraints) -> tuple[list[Partial], list[Refusal]]:
+def satisfy(
+    row: Row, state: Partial, env: Env, constraints: Constraints
+) -> tuple[list[Partial], list[Refusal]]:
     """The states in which the row's guard holds; where none is left, the refusals at the furthest conjunct reached."""
     states, refusals = [state], []
     for passed, (conjunct, assume) in enumerate(zip(row.guard, compiled(row).guard, strict=True)):
@@ -43,7 +44,9 @@ def satisfy(row: Row, state: Partial, env: Env, constraints: Constraints) -> tup
                 else:
                     left.append(settled)
         if not left:
-            return [], [r for r in refusals if r.passed == passed] or [Refusal(row, s, conjunct, passed) for s in states[:8]]
+            return [], [r for r in refusals if r.passed == passed] or [
+                Refusal(row, s, conjunct, passed) for s in states[:8]
+            ]
         states = left
     return states, []
 
@@ -85,7 +88,11 @@ def update(row: Row, state: Partial, env: Env) -> Partial:
     cells = _written(row, state, env)
     if not cells:
         return state
-    stale = {key for key in state.facts() if not _still_true(state.world.facts[int(key[1][0])], row, state, env, cells)}
+    stale = {
+        key
+        for key in state.facts()
+        if not _still_true(state.world.facts[int(key[1][0])], row, state, env, cells)
+    }
     kept = {key: known for key, known in state.cells.items() if key not in stale} if stale else state.cells
     return Partial(state.world, {**kept, **cells})
 
@@ -119,7 +126,9 @@ def _survives(fact: Fact, row: Row, blank: Partial, env: Env) -> bool:
     ranges = [_singles(blank.get(key)) for key in keys]  # type: ignore[arg-type]
     if len(keys) < len(fact.cells) or prod(map(len, ranges)) not in range(1, LARGEST_TABLE):
         return False
-    return all(_kept(fact, row, blank, env, dict(zip(keys, values, strict=True))) for values in product(*ranges))  # type: ignore[arg-type]
+    return all(
+        _kept(fact, row, blank, env, dict(zip(keys, values, strict=True))) for values in product(*ranges)
+    )  # type: ignore[arg-type]
 
 
 def _kept(fact: Fact, row: Row, blank: Partial, env: Env, values: Mapping[Key, Known]) -> bool:

@@ -18,9 +18,9 @@ from mmsverify.concrete.belief.internal import Goal, Outstanding, Unseen, decide
 from mmsverify.concrete.belief.partial import UNSEEN, Key, Partial, World, distinct
 from mmsverify.concrete.belief.truth import ABSENT, Env, value
 from mmsverify.concrete.belief.values import NO, YES, exactly, plain
+from mmsverify.model.expr import Ref
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import MINUS, PLUS, Clause, Row
-from mmsverify.model.expr import Ref
 from mmsverify.model.sorts import ElementSort, Enumeration, EnumSort, Sort
 
 LARGEST_BELIEF = 300
@@ -48,14 +48,19 @@ class Belief:
     def __init__(self, model: ModelData, facts: Mapping[Key, Any] | None = None) -> None:
         self.model = model
         self.world = World(model)
-        claims = [(c.formula, c.clause) for c in model.always] + [(a.condition, a.clause) for a in model.assumptions]
+        claims = [(c.formula, c.clause) for c in model.always] + [
+            (a.condition, a.clause) for a in model.assumptions
+        ]
         self.constraints = Constraints(self.world, claims)
         self.unseen = Unseen(model, self.constraints)
         self.states: list[Partial] = [Partial(self.world, {})]
         self.widened = False
         self._rows: dict[tuple[str, str], tuple[Row, ...]] = {}
         for row in model.rows:
-            self._rows[row.on.phase, row.on.service] = (*self._rows.get((row.on.phase, row.on.service), ()), row)
+            self._rows[row.on.phase, row.on.service] = (
+                *self._rows.get((row.on.phase, row.on.service), ()),
+                row,
+            )
         self._outstanding: dict[str, Outstanding] = {}
         self._watches: dict[str, _Watch] = {}
         self._know(facts or {})
@@ -66,7 +71,9 @@ class Belief:
                 assert isinstance(sort, ElementSort)
                 self.see(sort, name)
             self.states = [state.put((variable, args), exactly(given)) for state in self.states]
-        self.states = [s for s in map(self.constraints.everywhere, self.states) if not isinstance(s, Conflict)]
+        self.states = [
+            s for s in map(self.constraints.everywhere, self.states) if not isinstance(s, Conflict)
+        ]
 
     def see(self, sort: ElementSort, name: str) -> None:
         """A name has been seen in the recording."""
@@ -78,7 +85,9 @@ class Belief:
         self.world.survives.clear()
         self.states = [after for state in self.states for after in state.meets(name, sort)]
         for watch in self._watches.values():
-            watch.earlier = [[after for state in states for after in state.meets(name, sort)] for states in watch.earlier]
+            watch.earlier = [
+                [after for state in states for after in state.meets(name, sort)] for states in watch.earlier
+            ]
 
     def environment(self, phase: str, service: str, bindings: Mapping[str, Any]) -> dict[str, Any]:
         """The values of an event's parameters as the readers take them; its names are seen.
@@ -96,7 +105,9 @@ class Belief:
 
     def may_be(self, name: str, args: tuple[str, ...], word: str) -> bool:
         """Whether a variable or definition may have the value that prints as ``word``."""
-        expr = self.model.define(name, *(Ref(arg, sort) for arg, sort in zip(args, self._sorts(name), strict=True)))
+        expr = self.model.define(
+            name, *(Ref(arg, sort) for arg, sort in zip(args, self._sorts(name), strict=True))
+        )
         env = {arg: arg for arg in args}
         return any(word in map(str, plain(value(expr)(state, env))) for state in self.states)
 
@@ -130,10 +141,14 @@ class Belief:
         result = [after for row in rows for after in take(row, state, env, self.constraints)[0]]
         rest = [state]
         for row in rows:
-            rest = [left for before in rest for left in narrowing(row.guard_formula, False)(before, env, True)]
+            rest = [
+                left for before in rest for left in narrowing(row.guard_formula, False)(before, env, True)
+            ]
         return result + rest
 
-    def respond(self, slot: str, service: str, bindings: Mapping[str, Any], answer: str, *, local: bool = False) -> Outcome:
+    def respond(
+        self, slot: str, service: str, bindings: Mapping[str, Any], answer: str, *, local: bool = False
+    ) -> Outcome:
         """The responder answers. ``local`` says that a result(-) names a local reason, which needs no explanation."""
         env = self.environment("response", service, bindings)
         self._outstanding.pop(slot, None)
@@ -156,14 +171,22 @@ class Belief:
     def _refused(self, service: str, ready: Sequence[Partial], env: Env, then: list[Partial]) -> Outcome:
         """A result(-) for which nothing stands: a warning, for the text does not list every reason."""
         accepting = [row for row in self._rows["response", service] if row.answer == PLUS]
-        clause = Clause(accepting[-1].clause.ids[-1:], accepting[-1].clause.readings[-1:]) if accepting else Clause(())
+        clause = (
+            Clause(accepting[-1].clause.ids[-1:], accepting[-1].clause.readings[-1:])
+            if accepting
+            else Clause(())
+        )
         shown = before(self.model, ready or self.states, env)
-        found = Blame(f"{service}.refused", "warning", clause, "nothing stands against it", (PLUS,), shown, frozenset())
+        found = Blame(
+            f"{service}.refused", "warning", clause, "nothing stands against it", (PLUS,), shown, frozenset()
+        )
         earlier = self.states
         self._become(then)
         return Outcome(found, _changed(earlier, self.states))
 
-    def _answered(self, rows: Sequence[Row], ready: Sequence[Partial], env: Env, slot: str, answer: str) -> tuple[list[Partial], list[Refusal]]:
+    def _answered(
+        self, rows: Sequence[Row], ready: Sequence[Partial], env: Env, slot: str, answer: str
+    ) -> tuple[list[Partial], list[Refusal]]:
         after: list[Partial] = []
         refusals: list[Refusal] = []
         for state in ready:
@@ -198,7 +221,9 @@ class Belief:
         return Outcome(written=_changed(earlier, self.states))
 
     def _agreed(self, row: Row, states: list[Partial], env: Env) -> bool:
-        return bool(self._agreeing(row, self.unseen.before(states, "observation", {}, Goal([row], env)), env)[0])
+        return bool(
+            self._agreeing(row, self.unseen.before(states, "observation", {}, Goal([row], env)), env)[0]
+        )
 
     def _agreeing(self, row: Row, ready: Sequence[Partial], env: Env) -> tuple[list[Partial], list[Refusal]]:
         after: list[Partial] = []
@@ -212,15 +237,24 @@ class Belief:
     def lose_sight(self) -> None:
         """Messages may be missing: nothing that can change is known any more."""
         rigid = {name for name, s in self.model.signatures.items() if s.rigid}
-        self.states = distinct(Partial(s.world, {k: v for k, v in s.cells.items() if k[0] in rigid}) for s in self.states)
-        self.states = [s for s in map(self.constraints.everywhere, self.states) if not isinstance(s, Conflict)]
+        self.states = distinct(
+            Partial(s.world, {k: v for k, v in s.cells.items() if k[0] in rigid}) for s in self.states
+        )
+        self.states = [
+            s for s in map(self.constraints.everywhere, self.states) if not isinstance(s, Conflict)
+        ]
 
     def drop(self, slot: str) -> None:
         """A request will not be answered any more; whether it was performed is not known."""
         outstanding = self._outstanding.pop(slot, None)
         self._watches.pop(slot, None)
         if outstanding is not None:
-            extra = [after for state in self.states for row in outstanding.rows for after in take(row, state, outstanding.env, self.constraints)[0]]
+            extra = [
+                after
+                for state in self.states
+                for row in outstanding.rows
+                for after in take(row, state, outstanding.env, self.constraints)[0]
+            ]
             self._become([undecided(s, slot) for s in [*self.states, *extra]])
 
     # The set of states.
@@ -253,9 +287,17 @@ class Belief:
 
     def _without_names(self, state: Partial, env: Env) -> Partial:
         """The state with nothing known of the names in the event, and of what belongs to no name."""
-        names = {n for given in env.values() for n in ([given] if isinstance(given, str) else given if isinstance(given, frozenset) else ())}
+        names = {
+            n
+            for given in env.values()
+            for n in ([given] if isinstance(given, str) else given if isinstance(given, frozenset) else ())
+        }
         rigid = {name for name, s in self.model.signatures.items() if s.rigid}
-        gone = [k for k in state.cells if k[0] not in rigid and (not k[1] or names.intersection(k[1]) or k[0] == UNSEEN)]
+        gone = [
+            k
+            for k in state.cells
+            if k[0] not in rigid and (not k[1] or names.intersection(k[1]) or k[0] == UNSEEN)
+        ]
         found = self.constraints.everywhere(state.without(gone))
         return state.forget(frozenset(self.world.full) - rigid) if isinstance(found, Conflict) else found
 
@@ -270,7 +312,13 @@ class Belief:
         return [*self.states, *learned]
 
     def _violated(
-        self, rows: Sequence[Row], ready: Sequence[Partial], refusals: Sequence[Refusal], env: Env, expected: tuple[str, ...], then: list[Partial]
+        self,
+        rows: Sequence[Row],
+        ready: Sequence[Partial],
+        refusals: Sequence[Refusal],
+        env: Env,
+        expected: tuple[str, ...],
+        then: list[Partial],
     ) -> Outcome:
         earlier = self.states
         found = blame(self.model, ready or earlier, rows, refusals, env, expected) if rows else None
@@ -293,7 +341,10 @@ def _given(given: Any, sort: Sort | None = None) -> Any:
 def _widened(states: list[Partial]) -> list[Partial]:
     """Neighbours joined until few enough are left: more is allowed than before, never less."""
     while len(states) > LARGEST_BELIEF // 2:
-        states = distinct(a if b is a else a.joined(b) for a, b in zip(states[::2], [*states[1::2], states[-1]], strict=False))
+        states = distinct(
+            a if b is a else a.joined(b)
+            for a, b in zip(states[::2], [*states[1::2], states[-1]], strict=False)
+        )
     return states
 
 
@@ -301,5 +352,3 @@ def _changed(before: Sequence[Partial], after: Sequence[Partial]) -> frozenset[K
     old = before[0].cells if before else {}
     new = after[0].cells if after else {}
     return frozenset(k for k in {*old, *new} if old.get(k) != new.get(k) and not k[0].startswith("$"))
-
-

@@ -34,7 +34,12 @@ class Blame:
 
 
 def blame(
-    model: ModelData, states: Sequence[Partial], rows: Sequence[Row], refusals: Sequence[Refusal], env: Env, expected: tuple[str, ...]
+    model: ModelData,
+    states: Sequence[Partial],
+    rows: Sequence[Row],
+    refusals: Sequence[Refusal],
+    env: Env,
+    expected: tuple[str, ...],
 ) -> Blame:
     """The mildest and most plausible explanation: the state and row with the fewest conditions broken."""
     best = min((_breach(row, state, env, refusals) for row in rows for state in states), key=_weight)
@@ -106,7 +111,11 @@ def _expected(conjunct: Conjunct, states: Sequence[Partial], env: Env) -> tuple[
     for node in ex.walk(conjunct.condition):
         if isinstance(node, Eq) and isinstance(node.right, Ref) and node.right.name.startswith("shown_"):
             listed = plain(reduce(join, (value(node.left)(state, env) for state in states)))
-            return tuple(f"{node.right.name.removeprefix('shown_')}={v}" for v in listed if v not in plain(env[node.right.name]))
+            return tuple(
+                f"{node.right.name.removeprefix('shown_')}={v}"
+                for v in listed
+                if v not in plain(env[node.right.name])
+            )
     return ()
 
 
@@ -120,15 +129,26 @@ def before(model: ModelData, states: Sequence[Partial], env: Env) -> dict[str, A
     Relations that do not hold are left out, and what is not known.
     """
     names = {given for given in env.values() if isinstance(given, str)}
-    names |= {n for given in env.values() if isinstance(given, frozenset) for n in given if isinstance(n, str)}
+    names |= {
+        n for given in env.values() if isinstance(given, frozenset) for n in given if isinstance(n, str)
+    }
     shown: dict[str, Any] = {}
     for key in sorted({key for state in states for key in state.cells}):
         variable, args = key
         if variable.startswith("$") or OTHER in args or (args and not names.intersection(args)):
             continue
         known = _joined(states, key)
-        if variable in model.signatures and not model.signatures[variable].rigid and not (args and known == NO):
-            _put(shown, f"{variable}[{', '.join(args)}]" if args else variable, known, states[0].world.full[variable])
+        if (
+            variable in model.signatures
+            and not model.signatures[variable].rigid
+            and not (args and known == NO)
+        ):
+            _put(
+                shown,
+                f"{variable}[{', '.join(args)}]" if args else variable,
+                known,
+                states[0].world.full[variable],
+            )
     for name, (parameters, body) in model.definitions.items():
         if not parameters and body.sort.name != "Boolean":
             _put(shown, name, reduce(join, (value(body)(state, {}) for state in states)), None)
@@ -157,5 +177,7 @@ def _cells(conjunct: Conjunct, state: Partial, env: Env) -> frozenset[Key]:
 def _instances(cell: Cell, state: Partial, env: Env) -> Iterable[Key]:
     fixed = [env.get(arg.name) if isinstance(arg, Ref) else None for arg in cell.args]
     for key in state.cells:
-        if key[0] == cell.variable and all(not isinstance(f, str) or f == name for f, name in zip(fixed, key[1], strict=True)):
+        if key[0] == cell.variable and all(
+            not isinstance(f, str) or f == name for f, name in zip(fixed, key[1], strict=True)
+        ):
             yield key

@@ -16,6 +16,7 @@ from mmsverify.model.declare import Assign
 from mmsverify.model.expr import Ref
 from mmsverify.model.rows import Row
 
+
 @dataclass(frozen=True, slots=True)
 class CompiledAssign:
     """One update: bound names and their sorts, the condition, the target's arguments, the new value."""

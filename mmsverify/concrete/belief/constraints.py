@@ -70,7 +70,14 @@ class Constraints:
 
     def everywhere(self, state: Partial) -> Partial | Conflict:
         """The state narrowed by every instance of every invariant."""
-        return self.after(state, {(s.name, names) for s in self.world.model.signatures.values() for names in self.world.combinations(s.sorts)})  # type: ignore[arg-type]
+        return self.after(
+            state,
+            {
+                (s.name, names)
+                for s in self.world.model.signatures.values()
+                for names in self.world.combinations(s.sorts)
+            },
+        )  # type: ignore[arg-type]
 
     def after(self, state: Partial, changed: Iterable[Key]) -> Partial | Conflict:
         """The state narrowed by what the changed cells imply, and what that implies in turn."""
@@ -129,7 +136,11 @@ def _bound(args: tuple[str, ...], names: tuple[str, ...], bound: tuple[Ref, ...]
 
 
 def _differences(before: Partial, after: Partial) -> list[Key]:
-    return [key for key, value in after.cells.items() if before.cells.get(key) != value and not key[0].startswith("$")]
+    return [
+        key
+        for key, value in after.cells.items()
+        if before.cells.get(key) != value and not key[0].startswith("$")
+    ]
 
 
 def _is_universal(formula: Expr) -> bool:

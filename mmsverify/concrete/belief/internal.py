@@ -19,7 +19,6 @@ from mmsverify.concrete.belief.partial import DECIDED, OTHER, Partial, distinct
 from mmsverify.concrete.belief.patterns import Pattern, at, touches
 from mmsverify.concrete.belief.truth import Env
 from mmsverify.concrete.belief.values import NO, YES
-from mmsverify.model.expr import Ref
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Row
 from mmsverify.model.sorts import BOOL, ElementSort
@@ -101,7 +100,11 @@ class Unseen:
         self._memo.clear()
 
     def before(
-        self, states: Sequence[Partial], evidence: Evidence, outstanding: Mapping[str, Outstanding], goal: Goal
+        self,
+        states: Sequence[Partial],
+        evidence: Evidence,
+        outstanding: Mapping[str, Outstanding],
+        goal: Goal,
     ) -> list[Partial]:
         """All states that may hold when the event comes, those of ``states`` first.
 
@@ -142,7 +145,9 @@ class Unseen:
 
     def _firings(self, state: Partial, evidence: Evidence) -> list[Firing]:
         return [
-            Firing(row, tag, env, at(compiled(row).guard_cells, env)) for row in self._rows[evidence] for tag, env in self._bindings(row, state)
+            Firing(row, tag, env, at(compiled(row).guard_cells, env))
+            for row in self._rows[evidence]
+            for tag, env in self._bindings(row, state)
         ]
 
     def _useful(self, state: Partial, firings: Sequence[Firing], goal: Goal) -> list[Firing]:
@@ -165,11 +170,20 @@ class Unseen:
         return written
 
     def _next(
-        self, state: Partial, firings: Sequence[Firing], history: History, outstanding: Mapping[str, Outstanding], goal: Goal
+        self,
+        state: Partial,
+        firings: Sequence[Firing],
+        history: History,
+        outstanding: Mapping[str, Outstanding],
+        goal: Goal,
     ) -> Iterator[tuple[Tag, Partial]]:
         fired = {name for name, _ in history}
         for firing in firings:
-            if firing.tag in history or fired.intersection(firing.row.never_after) or not possible(firing.row, state, firing.env):
+            if (
+                firing.tag in history
+                or fired.intersection(firing.row.never_after)
+                or not possible(firing.row, state, firing.env)
+            ):
                 continue
             for after in take(firing.row, state, firing.env, self.constraints)[0]:
                 if outstanding or self._matters(firing, state, after, firings, goal):
@@ -181,7 +195,9 @@ class Unseen:
         for request in outstanding.values():
             yield from self._performed(request, state)
 
-    def _matters(self, firing: Firing, state: Partial, after: Partial, firings: Sequence[Firing], goal: Goal) -> bool:
+    def _matters(
+        self, firing: Firing, state: Partial, after: Partial, firings: Sequence[Firing], goal: Goal
+    ) -> bool:
         """Whether the goal reads what the firing changed, or may take away what it needs, or another firing is made possible.
 
         One that does not matter can as well fire after the event.
@@ -192,7 +208,9 @@ class Unseen:
         if touches(goal.cells, keys) or any(_overlap(goal.cells, need) for need in firing.needs):
             return True
         return any(
-            touches(other.needs, keys) and not possible(other.row, state, other.env) and possible(other.row, after, other.env)
+            touches(other.needs, keys)
+            and not possible(other.row, state, other.env)
+            and possible(other.row, after, other.env)
             for other in firings
         )
 
@@ -202,7 +220,10 @@ class Unseen:
             return
         for row in request.rows:
             for after in take(row, state, request.env, self.constraints)[0]:
-                yield ("performed", (request.slot,)), after.put((DECIDED, (request.slot,)), frozenset([row.answer]))
+                yield (
+                    ("performed", (request.slot,)),
+                    after.put((DECIDED, (request.slot,)), frozenset([row.answer])),
+                )
 
     def _bindings(self, row: Row, state: Partial) -> Iterator[tuple[Tag, dict[str, Any]]]:
         """Names for the parameters that are elements, both values for Booleans; any other choice stays open."""
@@ -211,7 +232,9 @@ class Unseen:
             if isinstance(parameter, SetOf):
                 continue
             if isinstance(parameter.of, ElementSort):
-                ranged.append((parameter.name, tuple(n for n in state.world.names[parameter.of.name] if n != OTHER)))
+                ranged.append(
+                    (parameter.name, tuple(n for n in state.world.names[parameter.of.name] if n != OTHER))
+                )
             elif parameter.of is BOOL:
                 ranged.append((parameter.name, (NO, YES)))
         for values in product(*(values for _, values in ranged)):
@@ -222,5 +245,6 @@ class Unseen:
 def _overlap(cells: frozenset[Pattern], need: Pattern) -> bool:
     variable, names = need
     return any(
-        other == variable and all(a is None or b is None or a == b for a, b in zip(args, names, strict=True)) for other, args in cells
+        other == variable and all(a is None or b is None or a == b for a, b in zip(args, names, strict=True))
+        for other, args in cells
     )

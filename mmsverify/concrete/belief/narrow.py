@@ -8,7 +8,7 @@ kept as it is, which allows too much but never too little. Of unseen names only 
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import lru_cache
+from functools import cache
 
 from mmsverify.concrete.belief.partial import OTHER, Fact, Partial
 from mmsverify.concrete.belief.patterns import at, patterns
@@ -23,7 +23,7 @@ Narrowing = Callable[[Partial, Env, bool], list[Partial]]
 LARGEST_SPLIT = 6
 
 
-@lru_cache(maxsize=None)
+@cache
 def narrowing(expr: Expr, want: bool) -> Narrowing:
     """What remains of a state when ``expr`` is assumed to be ``want``; the third argument allows splits."""
     match expr:
@@ -81,7 +81,9 @@ def _each(parts: tuple[Narrowing, ...]) -> Narrowing:
     return narrow
 
 
-def _first(parts: tuple[tuple[Callable[[Partial, Env], int], Narrowing, Narrowing], ...], want: bool) -> Narrowing:
+def _first(
+    parts: tuple[tuple[Callable[[Partial, Env], int], Narrowing, Narrowing], ...], want: bool
+) -> Narrowing:
     """A disjunction (of the parts, or of their negations): the alternatives in order."""
     good, bad = (YES, NO) if want else (NO, YES)
 
@@ -98,7 +100,9 @@ def _first(parts: tuple[tuple[Callable[[Partial, Env], int], Narrowing, Narrowin
     return narrow
 
 
-def alternatives(state: Partial, env: Env, split: bool, possible: list[tuple[Narrowing, Narrowing]]) -> list[Partial]:
+def alternatives(
+    state: Partial, env: Env, split: bool, possible: list[tuple[Narrowing, Narrowing]]
+) -> list[Partial]:
     """The states in which the first, or else the second ..., of several formulas holds."""
     if len(possible) == 1:
         return possible[0][0](state, env, split)
@@ -152,7 +156,9 @@ def _value(place: Expr, other: Expr, want: bool) -> Narrowing:
     return narrow
 
 
-def _restricted(state: Partial, where: tuple[str, tuple[str, ...]], now: Known, theirs: Known) -> list[Partial]:
+def _restricted(
+    state: Partial, where: tuple[str, tuple[str, ...]], now: Known, theirs: Known
+) -> list[Partial]:
     left = meet(now, theirs)
     if left is None:
         return []
@@ -170,7 +176,10 @@ def _place_key(place: Expr) -> Callable[[Env], tuple[str, tuple[str, ...]] | Non
 
 def _equivalence(left: Expr, right: Expr, want: bool) -> Narrowing:
     """``left`` and ``right`` have one truth value (or two): if either is decided, so is the other."""
-    sides = ((truth(left), narrowing(right, True), narrowing(right, False)), (truth(right), narrowing(left, True), narrowing(left, False)))
+    sides = (
+        (truth(left), narrowing(right, True), narrowing(right, False)),
+        (truth(right), narrowing(left, True), narrowing(left, False)),
+    )
 
     def narrow(state: Partial, env: Env, split: bool) -> list[Partial]:
         for holds, take, refuse in sides:
@@ -179,8 +188,14 @@ def _equivalence(left: Expr, right: Expr, want: bool) -> Narrowing:
                 return (take if (found == YES) == want else refuse)(state, env, split)
         if not split:
             return [state]
-        true = [b for a in narrowing(left, True)(state, env, split) for b in narrowing(right, want)(a, env, split)]
-        false = [b for a in narrowing(left, False)(state, env, split) for b in narrowing(right, not want)(a, env, split)]
+        true = [
+            b for a in narrowing(left, True)(state, env, split) for b in narrowing(right, want)(a, env, split)
+        ]
+        false = [
+            b
+            for a in narrowing(left, False)(state, env, split)
+            for b in narrowing(right, not want)(a, env, split)
+        ]
         return true + false
 
     return narrow
@@ -189,7 +204,10 @@ def _equivalence(left: Expr, right: Expr, want: bool) -> Narrowing:
 def _choice(choice: Ite, other: Expr, want: bool) -> Narrowing:
     """An if-then-else compared with a value: the branches that may lead there."""
     yes, no = narrowing(choice.condition, True), narrowing(choice.condition, False)
-    then, otherwise = narrowing(ex.equal(choice.then, other), want), narrowing(ex.equal(choice.otherwise, other), want)
+    then, otherwise = (
+        narrowing(ex.equal(choice.then, other), want),
+        narrowing(ex.equal(choice.otherwise, other), want),
+    )
     may_then, may_otherwise = truth(ex.equal(choice.then, other)), truth(ex.equal(choice.otherwise, other))
     wanted = YES if want else NO
 
@@ -213,9 +231,13 @@ def _order(left: Expr, right: Expr, want: bool) -> Narrowing:
     low, high = value(left), value(right)
     steps: list[Narrowing] = [_test(Less(left, right), want)]
     if _is_place(left):
-        steps.append(_bounded(left, lambda s, e: high(s, e)[1] if want else high(s, e)[0], below if want else _from))  # type: ignore[index]
+        steps.append(
+            _bounded(left, lambda s, e: high(s, e)[1] if want else high(s, e)[0], below if want else _from)
+        )  # type: ignore[index]
     if _is_place(right):
-        steps.append(_bounded(right, lambda s, e: low(s, e)[0] if want else low(s, e)[1], above if want else _up_to))  # type: ignore[index]
+        steps.append(
+            _bounded(right, lambda s, e: low(s, e)[0] if want else low(s, e)[1], above if want else _up_to)
+        )  # type: ignore[index]
     return _each(tuple(steps))
 
 
@@ -227,7 +249,9 @@ def _up_to(known: tuple[int | None, int | None], limit: int | None) -> tuple[int
     return below(known, None if limit is None else limit + 1)
 
 
-def _bounded(place: Expr, limit: Callable[[Partial, Env], int | None], cut: Callable[..., Known | None]) -> Narrowing:
+def _bounded(
+    place: Expr, limit: Callable[[Partial, Env], int | None], cut: Callable[..., Known | None]
+) -> Narrowing:
     key, now = _place_key(place), value(place)
 
     def narrow(state: Partial, env: Env, _split: bool) -> list[Partial]:
@@ -252,10 +276,15 @@ def _every(expr: Quantified, want: bool) -> Narrowing:
     def remember(state: Partial, env: Env) -> Partial:
         """A formula that is left open for unseen names is kept for when they are seen."""
         given = {name: env[name] for name in (*names, *needed) if name in env}
-        key = state.world.fact((id(assume), frozenset(given.items())), lambda: Fact(assume, holds, wanted, given, bound, at(cells, given)))
+        key = state.world.fact(
+            (id(assume), frozenset(given.items())),
+            lambda: Fact(assume, holds, wanted, given, bound, at(cells, given)),
+        )
         return state.put(key, YES)
 
-    needed = tuple(sorted(set(ex.refs_of(expr.body)) | {n.set for n in ex.walk(expr.body) if isinstance(n, ex.Member)}))
+    needed = tuple(
+        sorted(set(ex.refs_of(expr.body)) | {n.set for n in ex.walk(expr.body) if isinstance(n, ex.Member)})
+    )
 
     def narrow(state: Partial, env: Env, split: bool) -> list[Partial]:
         states = [state]
@@ -272,7 +301,12 @@ def _every(expr: Quantified, want: bool) -> Narrowing:
 
 
 def _of_unseen(
-    state: Partial, env: Env, assume: Narrowing, holds: Truth, wanted: int, remember: Callable[[Partial, Env], Partial]
+    state: Partial,
+    env: Env,
+    assume: Narrowing,
+    holds: Truth,
+    wanted: int,
+    remember: Callable[[Partial, Env], Partial],
 ) -> Partial:
     """What holds of every unseen name narrows their common cells; where it leaves them open, it is kept as a fact."""
     if holds(state, env) == wanted:
@@ -308,5 +342,3 @@ def _some(expr: Quantified, want: bool) -> Narrowing:
 
 def _within(narrow: Narrowing, env: Env) -> Narrowing:
     return lambda state, _env, split: narrow(state, env, split)
-
-

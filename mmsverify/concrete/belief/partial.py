@@ -113,10 +113,15 @@ class Partial:
 
     def forget(self, variables: frozenset[str]) -> Partial:
         """The same state with nothing known of these variables."""
-        return Partial(self.world, {k: v for k, v in self.cells.items() if k[0] not in variables and not self._reads(k, variables)})
+        return Partial(
+            self.world,
+            {k: v for k, v in self.cells.items() if k[0] not in variables and not self._reads(k, variables)},
+        )
 
     def _reads(self, key: Key, variables: frozenset[str]) -> bool:
-        return key[0] == UNSEEN and any(variable in variables for variable, _ in self.world.facts[int(key[1][0])].cells)
+        return key[0] == UNSEEN and any(
+            variable in variables for variable, _ in self.world.facts[int(key[1][0])].cells
+        )
 
     def facts(self) -> list[Key]:
         """The keys of the facts about names not seen yet."""
@@ -160,7 +165,9 @@ def _places(model: ModelData, variable: str, args: tuple[str, ...], sort: Elemen
     return [i for i, arg in enumerate(args) if arg == OTHER and signature.sorts[i].name == sort.name]
 
 
-def _renamed(args: tuple[str, ...], places: list[int], chosen: tuple[bool, ...], name: str) -> tuple[str, ...]:
+def _renamed(
+    args: tuple[str, ...], places: list[int], chosen: tuple[bool, ...], name: str
+) -> tuple[str, ...]:
     renamed = list(args)
     for place, take in zip(places, chosen, strict=True):
         if take:

@@ -22,7 +22,10 @@ def patterns(expr: Expr) -> Iterator[Pattern]:
 
 def at(patterns: Iterable[Pattern], env: Mapping[str, Any]) -> frozenset[Pattern]:
     """The patterns with parameters replaced by the names of an environment; other names become "any"."""
-    return frozenset((variable, tuple(_named(env.get(arg)) if arg else None for arg in args)) for variable, args in patterns)
+    return frozenset(
+        (variable, tuple(_named(env.get(arg)) if arg else None for arg in args))
+        for variable, args in patterns
+    )
 
 
 def _named(given: Any) -> str | None:

@@ -7,14 +7,27 @@ known set of values, a set of names (``None``: any set), or ``ABSENT``.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from functools import lru_cache, partial
+from functools import cache, partial
 from typing import Any
 
 from mmsverify.concrete.belief.partial import OTHER, Partial
 from mmsverify.concrete.belief.values import EITHER, NO, YES, Known, everything, exactly, join, same, smaller
 from mmsverify.model import expr as ex
 from mmsverify.model.expr import (
-    And, Cell, Const, Eq, Expr, Ite, Less, Member, Not, Or, Plus, Present, Quantified, Ref,
+    And,
+    Cell,
+    Const,
+    Eq,
+    Expr,
+    Ite,
+    Less,
+    Member,
+    Not,
+    Or,
+    Plus,
+    Present,
+    Quantified,
+    Ref,
 )  # fmt: skip
 from mmsverify.model.sorts import BOOL, ElementSort
 
@@ -39,7 +52,7 @@ def element(expr: Expr) -> Name:
     return lambda env: env.get(name, ABSENT)
 
 
-@lru_cache(maxsize=None)
+@cache
 def key_of(cell: Cell) -> Callable[[Env], Any]:
     """The key of a cell in an environment; ``None`` where an argument is absent."""
     variable, names = cell.variable, tuple(arg.name for arg in cell.args if isinstance(arg, Ref))
@@ -61,7 +74,7 @@ def _key_of_many(variable: str, names: tuple[str, ...], env: Env) -> Any:
     return None if ABSENT in args else (variable, args)
 
 
-@lru_cache(maxsize=None)
+@cache
 def truth(expr: Expr) -> Truth:
     """Whether a formula holds: ``NO``, ``YES`` or ``EITHER``."""
     match expr:
@@ -178,7 +191,7 @@ def _quantified(expr: Quantified) -> Truth:
     return holds
 
 
-@lru_cache(maxsize=None)
+@cache
 def value(expr: Expr) -> Value:
     """The values that an expression may have."""
     match expr:
@@ -190,7 +203,9 @@ def value(expr: Expr) -> Value:
             return lambda state, env: _parameter(state, env, name, full)
         case Cell():
             key = key_of(expr)
-            return lambda state, env: state.world.full[expr.variable] if key(env) is None else state.get(key(env))
+            return lambda state, env: (
+                state.world.full[expr.variable] if key(env) is None else state.get(key(env))
+            )
         case Ite(condition, then, otherwise):
             return _choice(truth(condition), value(then), value(otherwise))
         case Plus(left, right, factor):
