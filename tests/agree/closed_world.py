@@ -15,7 +15,7 @@ from mmsverify.concrete.scope import CellKey, Value
 from mmsverify.model import ModelData, Row
 from mmsverify.model.expr import Cell, Const, Expr, Present, Ref
 from mmsverify.model.rows import after
-from mmsverify.model.sorts import ElementSort, IntSort, Sort
+from mmsverify.model.sorts import BoolSort, ElementSort, IntSort, Sort
 from mmsverify.model.terms import SetOf
 from mmsverify.symbolic.translate import Translator
 
@@ -60,7 +60,9 @@ class ClosedWorld:
         self.solver.add(self.z3.formula(row.guard_formula))
         for parameter in row.parameters:
             self.solver.add(*self._in_scope(parameter))
-        terms = {key: self.z3.term(after(self.cell(key), row.assigns)) for key in self.cells()}
+        terms = {
+            key: self._named(key, self.z3.term(after(self.cell(key), row.assigns))) for key in self.cells()
+        }
         while self.solver.check() == z3.sat:
             found = self.solver.model()
             bindings = {parameter.name: self._binding(found, row, parameter) for parameter in row.parameters}
@@ -74,16 +76,22 @@ class ClosedWorld:
             )
         self.solver.pop()
 
+    def _named(self, key: CellKey, expr: Expr) -> Any:
+        """A constant that equals the expression: the solver then says its value, quantifiers and all."""
+        term = self.z3.term(expr)
+        constant = z3.Const(f"next {key}", term.sort())
+        self.solver.add(constant == term)
+        return constant
+
     def cells(self) -> Iterator[CellKey]:
         """All cells."""
         for signature in self.model.signatures.values():
             yield from self.scope.cells(signature)
 
     def _in_scope(self, parameter: Ref | SetOf) -> Iterator[z3.BoolRef]:
-        if isinstance(parameter, Ref) and isinstance(parameter.of, IntSort):
-            low, high = self.scope.bounds(parameter.of)
-            term = self.z3.term(parameter)
-            yield z3.And(term >= low, term <= high)
+        if isinstance(parameter, Ref) and not isinstance(parameter.of, BoolSort):
+            values = self.scope.values(parameter.of)
+            yield z3.Or(*(self.z3.term(parameter) == self.value(parameter.of, value) for value in values))
 
     def _binding(self, found: z3.ModelRef, row: Row, parameter: Ref | SetOf) -> Any:
         if isinstance(parameter, SetOf):

@@ -1,8 +1,8 @@
 """Random small models, written in the public language, for the readers to agree on.
 
 Every construct of the language can occur: relations of arity 0 to 2, enumerations, bounded integers, rigid
-cells, quantifiers, conditional values, optional and set-valued parameters, procedures with every kind of step.
-Optional parameters are read under ``present`` only, as the language demands.
+cells, quantifiers, conditional values, optional and set-valued parameters, procedures. Optional
+parameters are read under ``present`` only, as the language demands.
 """
 
 from __future__ import annotations
