@@ -60,9 +60,7 @@ class ClosedWorld:
         self.solver.add(self.z3.formula(row.guard_formula))
         for parameter in row.parameters:
             self.solver.add(*self._in_scope(parameter))
-        terms = {
-            key: self._named(key, self.z3.term(after(self.cell(key), row.assigns))) for key in self.cells()
-        }
+        terms = {key: self._named(key, after(self.cell(key), row.assigns)) for key in self.cells()}
         while self.solver.check() == z3.sat:
             found = self.solver.model()
             bindings = {parameter.name: self._binding(found, row, parameter) for parameter in row.parameters}
