@@ -15,6 +15,7 @@ from mmsverify.errors import UsageError
 from mmsverify.graph import View, dot, mermaid, svg, view_names, views
 from mmsverify.model import Claim, Clause, ModelData, load
 from mmsverify.model import expr as ex
+from mmsverify.model.rewrite import primed
 from mmsverify.resources import models_dir
 
 DRAWINGS: Mapping[str, Callable[[Sequence[View]], str]] = {"mermaid": mermaid, "dot": dot, "svg": svg}
@@ -51,7 +52,7 @@ def _told_by(model: ModelData, name: str) -> Claim:
     if name in model.signatures:
         parameters = tuple(ex.Ref(f"at{i}", sort) for i, sort in enumerate(model.signatures[name].sorts))
         body = model.define(name, *parameters)
-    same = ex.quantified(True, parameters, ex.equal(ex.primed(body), body))
+    same = ex.quantified(True, parameters, ex.equal(primed(body), body))
     return Claim(name, "step", Clause(()), same)
 
 

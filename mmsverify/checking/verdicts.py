@@ -8,6 +8,7 @@ from mmsverify.checking.runs import Run, Search
 from mmsverify.model import expr as ex
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Claim
+from mmsverify.model.show import shown
 from mmsverify.results import PathStep, Result, Verdict
 from mmsverify.symbolic.induction import Obstacle
 from mmsverify.symbolic.overlap import Coverage
@@ -112,5 +113,5 @@ def _verdict(
 
 def statement(claim: Claim) -> str:
     """What the claim says, in its own words or as its formula where that is short."""
-    formula = claim.says or ex.shown(claim.formula)
+    formula = claim.says or shown(claim.formula)
     return formula if len(formula) <= LONGEST_STATEMENT else ""

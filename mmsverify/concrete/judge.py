@@ -11,9 +11,9 @@ from mmsverify.concrete.names import free_names
 from mmsverify.concrete.scope import Scope, cell_name, known_facts
 from mmsverify.concrete.trace_path import Path
 from mmsverify.errors import MmsverifyError
-from mmsverify.model import expr as ex
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Claim
+from mmsverify.model.show import shown
 
 
 class NotAPathError(MmsverifyError):
@@ -43,7 +43,7 @@ def _check_start(model: ModelData, scope: Scope, state: Valuation) -> None:
     at = Moment(scope, state, {})
     for conjunct in (*model.initial, *model.assumptions):
         if not holds(conjunct.condition, at):
-            raise NotAPathError(f"no initial state: not {ex.shown(conjunct.condition)}", place="step 0")
+            raise NotAPathError(f"no initial state: not {shown(conjunct.condition)}", place="step 0")
     for key, value in known_facts(model, scope).items():
         if state[key] != value:
             raise NotAPathError(f"{cell_name(key)} is not {value!s}", place="step 0")

@@ -7,8 +7,10 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from mmsverify.model import expr as ex
-from mmsverify.model.expr import Cell, Expr, Ref, primed
+from mmsverify.model import show
+from mmsverify.model.expr import Cell, Expr, Ref
 from mmsverify.model.place import caller, mistake
+from mmsverify.model.rewrite import bind, primed, substitute
 from mmsverify.model.sorts import BOOL, ElementSort, Enumeration, Sort, enumeration
 from mmsverify.model.terms import Element, Maybe, SetOf, Term, cell, formula, value_of
 
@@ -86,7 +88,7 @@ class Assign:
     def when(self, condition: Any) -> Assign:
         """The same update, only where ``condition`` holds; it may speak of the elements that ``over`` has bound."""
         marked = {ref.name.removesuffix("·"): ref for ref in self.bound}
-        where = ex.conjunction(self.where, ex.substitute(formula(condition), marked))
+        where = ex.conjunction(self.where, substitute(formula(condition), marked))
         return replace(self, where=where)
 
     def over(self, *elements: Element) -> Assign:
@@ -94,10 +96,10 @@ class Assign:
         marked = {e.ref.name: Ref(e.ref.name + "·", e.ref.of) for e in elements}
         return replace(
             self,
-            args=tuple(ex.substitute(arg, marked) for arg in self.args),
-            value=ex.substitute(self.value, marked),
+            args=tuple(substitute(arg, marked) for arg in self.args),
+            value=substitute(self.value, marked),
             bound=self.bound + tuple(marked.values()),
-            where=ex.substitute(self.where, marked),
+            where=substitute(self.where, marked),
         )
 
 
@@ -111,7 +113,7 @@ class Place(Term):
         target = self.expr
         if not isinstance(target, Cell):
             raise mistake(
-                f"'{ex.shown(target)}' is a definition, not a variable",
+                f"'{show.shown(target)}' is a definition, not a variable",
                 "update the variables that it is made of",
             )
         return Assign(target.variable, target.args, value_of(value, target.of), place=caller())
@@ -178,7 +180,7 @@ def unchanged(*variables: Variable) -> Term:
 def _kept(variable: Variable) -> Expr:
     refs = tuple(Ref(f"kept{i}", sort) for i, sort in enumerate(variable.sorts))
     before = Cell(variable.name, refs, variable.value_sort)
-    return ex.bind(True, refs, ex.equal(primed(before), before))
+    return bind(True, refs, ex.equal(primed(before), before))
 
 
 class Derived(Declared):

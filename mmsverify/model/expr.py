@@ -1,12 +1,13 @@
 """Expressions as data: frozen, structurally equal, picklable. Every reader of a model walks these nodes.
 
-No operator overloading here (that is ``terms``) and no meaning beyond structure (that is each reader's).
+No operator overloading here (that is ``terms``), no rewriting (``rewrite``), no text (``show``), and no meaning
+beyond structure (that is each reader's): the nodes, the functions that make them, and what occurs in them.
 Conjunctions and disjunctions are flat and keep their order, for replay names the conjunct that failed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any
@@ -153,7 +154,7 @@ class Quantified(Expr):
 
 @dataclass(frozen=True, slots=True)
 class RowFact(Expr):
-    """A fact about the row that makes the step, for two-state claims: its ``answer``, ``service`` or ``name``."""
+    """A fact about the row that makes the step, for two-state claims: its answer, service, phase or name."""
 
     fact: str
     values: tuple[str, ...]
@@ -174,12 +175,13 @@ def _hashed_once(structural: Callable[[Any], int]) -> Callable[[Expr], int]:
 
 
 for _kind in Expr.__subclasses__():
-    setattr(_kind, "__hash__", _hashed_once(_kind.__hash__))  # noqa: B010
+    setattr(_kind, "__hash__", _hashed_once(_kind.__hash__))  # noqa: B010 - mypy takes no assignment to a method
 
 TRUE = Const(True)
 FALSE = Const(False)
 
-Rebuild = Callable[[Expr], Expr]
+BOUND = "°"
+"""Ends the name of every bound variable, so that none is ever taken for a parameter of a row."""
 
 
 def children(expr: Expr) -> tuple[Expr, ...]:
@@ -198,32 +200,6 @@ def children(expr: Expr) -> tuple[Expr, ...]:
         case Ite(condition, then, otherwise):
             return (condition, then, otherwise)
     return ()
-
-
-def rebuilt(expr: Expr, change: Rebuild) -> Expr:
-    """The node with every direct part changed, simplified where a part became a literal."""
-    match expr:
-        case Cell(variable, args, of, after):
-            return Cell(variable, tuple(map(change, args)), of, after)
-        case Member(name, element):
-            return Member(name, change(element))
-        case Not(body):
-            return negation(change(body))
-        case And(parts):
-            return conjunction(*map(change, parts))
-        case Or(parts):
-            return disjunction(*map(change, parts))
-        case Eq(left, right):
-            return equal(change(left), change(right))
-        case Less(left, right):
-            return less(change(left), change(right))
-        case Plus(left, right, factor):
-            return plus(change(left), change(right), factor)
-        case Ite(condition, then, otherwise):
-            return choice(change(condition), change(then), change(otherwise))
-        case Quantified(universal, bound, body):
-            return quantified(universal, bound, change(body))
-    return expr
 
 
 def negation(body: Expr) -> Expr:
@@ -309,58 +285,11 @@ def quantified(universal: bool, bound: tuple[Ref, ...], body: Expr) -> Expr:
     return Quantified(universal, bound, body)
 
 
-BOUND = "°"  # ends the name of every bound variable, so that none is ever taken for a parameter of a row
-
-
-def bind(universal: bool, bound: tuple[Ref, ...], body: Expr) -> Expr:
-    """Close ``body`` over variables that were free in it; their names are marked as bound."""
-    marked = {ref.name: Ref(ref.name + BOUND, ref.of) for ref in bound}
-    return quantified(universal, tuple(marked.values()), substitute(body, marked))
-
-
 def walk(expr: Expr) -> Iterator[Expr]:
     """The node and all nodes below it, outermost first."""
     yield expr
     for child in children(expr):
         yield from walk(child)
-
-
-def substitute(expr: Expr, refs: Mapping[str, Expr]) -> Expr:
-    """The expression with parameters and free bound variables replaced; a bound name is renamed rather than captured."""
-    if not refs:
-        return expr
-    if isinstance(expr, Ref):
-        return refs.get(expr.name, expr)
-    if isinstance(expr, Quantified):
-        return _substitute_under(expr, refs)
-    return rebuilt(expr, lambda part: substitute(part, refs))
-
-
-def _substitute_under(expr: Quantified, refs: Mapping[str, Expr]) -> Expr:
-    free = {name: value for name, value in refs.items() if all(ref.name != name for ref in expr.bound)}
-    taken = {name for value in free.values() for name in refs_of(value)}
-    fresh = {ref.name: Ref(_unused(ref.name, taken), ref.of) for ref in expr.bound if ref.name in taken}
-    bound = tuple(fresh.get(ref.name, ref) for ref in expr.bound)
-    return quantified(expr.universal, bound, substitute(expr.body, {**free, **fresh}))
-
-
-def _unused(name: str, taken: set[str]) -> str:
-    while name in taken:
-        name += "'"
-    return name
-
-
-def map_cells(expr: Expr, change: Callable[[Cell], Expr], of: frozenset[str] | None = None) -> Expr:
-    """The expression with every cell replaced by ``change(cell)``, innermost first; only cells of the variables ``of``."""
-    if of is not None and of.isdisjoint(variables_of(expr)):
-        return expr
-    inner = rebuilt(expr, lambda part: map_cells(part, change, of))
-    return change(inner) if isinstance(inner, Cell) else inner
-
-
-def primed(expr: Expr) -> Expr:
-    """The same expression over the state after the step."""
-    return map_cells(expr, lambda cell: Cell(cell.variable, cell.args, cell.of, True))
 
 
 @lru_cache(maxsize=65536)
@@ -377,50 +306,6 @@ def refs_of(expr: Expr) -> dict[str, Ref]:
 def reads_next(expr: Expr) -> bool:
     """Whether the expression speaks of the state after the step."""
     return any(isinstance(node, Cell) and node.next for node in walk(expr))
-
-
-def shown(expr: Expr) -> str:
-    """The expression as a reader of the standard would write it."""
-    match expr:
-        case Const(value):
-            return str(value)
-        case Ref(name):
-            return name.rstrip(BOUND + "·'")
-        case Cell(variable, args, _, after):
-            inner = f"[{', '.join(map(shown, args))}]" if args else ""
-            return f"{variable}{inner}{chr(39) if after else ''}"
-        case Member(name, element):
-            return f"{shown(element)} in {name}"
-        case Present(name):
-            return f"{name} present"
-        case RowFact(fact, values):
-            return f"{fact} is {' or '.join(values)}"
-        case Not(Eq(left, right)):
-            return f"{shown(left)} != {shown(right)}"
-        case Not(Less(left, right)):
-            return f"{shown(left)} >= {shown(right)}"
-        case Not(body):
-            return f"not ({shown(body)})" if isinstance(body, And | Or) else f"not {shown(body)}"
-        case And(parts):
-            return " and ".join(_bracketed(part) for part in parts)
-        case Or(parts):
-            return " or ".join(_bracketed(part) for part in parts)
-        case Eq(left, right):
-            return f"{_bracketed(left)} = {_bracketed(right)}"
-        case Less(left, right):
-            return f"{shown(left)} < {shown(right)}"
-        case Plus(left, right, factor):
-            return f"{shown(left)} {'+' if factor > 0 else '-'} {shown(right)}"
-        case Ite(condition, then, otherwise):
-            return f"({shown(then)} if {shown(condition)} else {shown(otherwise)})"
-        case Quantified(universal, bound, body):
-            names = ", ".join(map(shown, bound))
-            return f"{'for all' if universal else 'for some'} {names}: {_bracketed(body)}"
-    return repr(expr)
-
-
-def _bracketed(expr: Expr) -> str:
-    return f"({shown(expr)})" if isinstance(expr, And | Or | Quantified | Eq) else shown(expr)
 
 
 def literal(value: Any, sort: Sort) -> Const | None:

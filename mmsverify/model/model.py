@@ -18,6 +18,7 @@ from mmsverify.model.declare import Declared, Derived, Each, Variable
 from mmsverify.model.expr import Cell, Expr
 from mmsverify.model.place import mistake
 from mmsverify.model.procedure import RowSource
+from mmsverify.model.rewrite import map_cells, primed, substitute
 from mmsverify.model.rows import Claim, Conjunct, Gap, Repair, Row, Signature
 from mmsverify.model.sorts import ElementSort
 
@@ -152,7 +153,7 @@ class ModelData:
         """A definition at its arguments, expanded to the variables; a stored variable is its own cell."""
         if name in self.definitions:
             parameters, body = self.definitions[name]
-            return ex.substitute(body, {p.name: a for p, a in zip(parameters, args, strict=True)})
+            return substitute(body, {p.name: a for p, a in zip(parameters, args, strict=True)})
         signature = self.signatures[name]
         return Cell(name, args, signature.of)
 
@@ -227,10 +228,10 @@ def expand(expr: Expr, definitions: Definitions) -> Expr:
         if cell.variable not in definitions:
             return cell
         parameters, body = definitions[cell.variable]
-        given = ex.substitute(body, {p.name: a for p, a in zip(parameters, cell.args, strict=True)})
-        return ex.primed(given) if cell.next else given
+        given = substitute(body, {p.name: a for p, a in zip(parameters, cell.args, strict=True)})
+        return primed(given) if cell.next else given
 
-    return ex.map_cells(expr, change)
+    return map_cells(expr, change)
 
 
 def _expanded(conjunct: Conjunct, definitions: Definitions) -> Conjunct:

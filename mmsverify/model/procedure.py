@@ -13,6 +13,7 @@ from mmsverify.model import expr as ex
 from mmsverify.model.declare import Assign, Declared, On
 from mmsverify.model.expr import Expr, Ref
 from mmsverify.model.place import caller, mistake
+from mmsverify.model.rewrite import bind, substitute
 from mmsverify.model.rows import MINUS, PLUS, SHOWN, Clause, Conjunct, Level, Repair, Row, after
 from mmsverify.model.sorts import ElementSort
 from mmsverify.model.steps import Accept, Do, ForEach, Refuse, Step, check_distinct, cited
@@ -210,18 +211,18 @@ class _Run:
             step, MINUS, (self._conjunct(step, self._fails(step, bad, done)),), self._half_done(step, done)
         )
         self.choices = saved
-        everywhere = ex.bind(True, (step.element,), ex.disjunction(ex.negation(step.where), step.possible))
+        everywhere = bind(True, (step.element,), ex.disjunction(ex.negation(step.where), step.possible))
         self.passed += (self._conjunct(step, self.now(everywhere)),)
         handled = tuple(_over(assign, step.element, step.where) for assign in step.body)
         self._do(handled, cited(self.source.clause, step))
 
     def _fails(self, step: ForEach, bad: Element, done: SetOf) -> Expr:
-        at_bad = ex.substitute(
+        at_bad = substitute(
             ex.conjunction(step.where, ex.negation(step.possible)), {step.element.name: bad.expr}
         )
         inside = ex.Member(done.name, step.element)
         handled = ex.disjunction(ex.negation(inside), ex.conjunction(step.where, step.possible))
-        return self.now(ex.conjunction(at_bad, ex.bind(True, (step.element,), handled)))
+        return self.now(ex.conjunction(at_bad, bind(True, (step.element,), handled)))
 
     def _half_done(self, step: ForEach, done: SetOf) -> tuple[Assign, ...]:
         inside = ex.Member(done.name, step.element)

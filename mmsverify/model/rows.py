@@ -14,6 +14,7 @@ from typing import Literal
 from mmsverify.model import expr as ex
 from mmsverify.model.declare import Assign, On
 from mmsverify.model.expr import Cell, Expr, Ref
+from mmsverify.model.rewrite import map_cells, rebuilt, substitute
 from mmsverify.model.sorts import Sort
 from mmsverify.model.terms import SetOf
 
@@ -161,7 +162,7 @@ def after(expr: Expr, assigns: Sequence[Assign]) -> Expr:
         by_variable.setdefault(assign.variable, []).append(assign)
     if not by_variable:
         return expr
-    return ex.map_cells(
+    return map_cells(
         expr, lambda cell: _updated(cell, by_variable.get(cell.variable, ())), frozenset(by_variable)
     )
 
@@ -185,8 +186,8 @@ def matched(assign: Assign, args: tuple[Expr, ...]) -> tuple[Expr, Expr]:
         else:
             tests.append(ex.equal(actual, target))
     free = tuple(ref for name, ref in bound.items() if name not in solved)
-    condition = ex.substitute(ex.conjunction(*tests, assign.where), solved)
-    return ex.quantified(False, free, condition), ex.substitute(assign.value, solved)
+    condition = substitute(ex.conjunction(*tests, assign.where), solved)
+    return ex.quantified(False, free, condition), substitute(assign.value, solved)
 
 
 def step_formula(claim: Expr, row: Row) -> Expr:
@@ -206,10 +207,10 @@ def step_formula(claim: Expr, row: Row) -> Expr:
         for name, ref in ex.refs_of(claim).items()
         if name not in known and not name.endswith(ex.BOUND)
     }
-    return ex.map_cells(ex.substitute(_resolved(claim, facts), absent), change)
+    return map_cells(substitute(_resolved(claim, facts), absent), change)
 
 
 def _resolved(expr: Expr, facts: Mapping[str, str]) -> Expr:
     if isinstance(expr, ex.RowFact):
         return ex.Const(facts[expr.fact] in expr.values)
-    return ex.rebuilt(expr, lambda part: _resolved(part, facts))
+    return rebuilt(expr, lambda part: _resolved(part, facts))

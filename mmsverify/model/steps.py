@@ -14,6 +14,7 @@ from mmsverify.model.declare import Assign
 from mmsverify.model.expr import Expr, Ref
 from mmsverify.model.place import caller, mistake
 from mmsverify.model.rows import Clause, Level
+from mmsverify.model.show import shown
 from mmsverify.model.sorts import BOOL
 from mmsverify.model.terms import Element, formula
 
@@ -158,7 +159,7 @@ def check_distinct(assigns: Sequence[Assign], place: str) -> None:
         other = seen.get(key)
         if other is not None and not _apart(other, assign.where):
             raise mistake(
-                f"two updates of {assign.variable}[{', '.join(map(ex.shown, assign.args))}] in one step",
+                f"two updates of {assign.variable}[{', '.join(map(shown, assign.args))}] in one step",
                 "keep one, or give them conditions that exclude each other",
                 place,
             )

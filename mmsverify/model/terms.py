@@ -13,6 +13,8 @@ from typing import Any, ClassVar, NoReturn
 from mmsverify.model import expr as ex
 from mmsverify.model.expr import Cell, Const, Expr, Member, Present, Ref
 from mmsverify.model.place import mistake
+from mmsverify.model.rewrite import bind, primed
+from mmsverify.model.show import shown
 from mmsverify.model.sorts import (
     BOOL,
     ElementSort,
@@ -43,11 +45,11 @@ class Term:
     @property
     def next(self) -> Term:
         """The same expression over the state after the step; for two-state claims (``Step``)."""
-        return Term(ex.primed(self.expr))
+        return Term(primed(self.expr))
 
     def __bool__(self) -> NoReturn:
         raise mistake(
-            f"the condition '{ex.shown(self.expr)}' is used as a truth value",
+            f"the condition '{shown(self.expr)}' is used as a truth value",
             "write & for and, | for or, ~ for not, >> for implies, if_(c, a, b) for if",
         )
 
@@ -89,14 +91,14 @@ class Term:
         return Term(ex.disjunction(ex.negation(formula(self)), formula(other)))
 
     def __iter__(self) -> NoReturn:
-        raise mistake(f"'{ex.shown(self.expr)}' cannot be listed", "quantify: for_all(x)(... x ...)")
+        raise mistake(f"'{shown(self.expr)}' cannot be listed", "quantify: for_all(x)(... x ...)")
 
     def isin(self, values: Iterable[Any]) -> Term:
         """Whether the value is one of ``values``."""
         return Term(ex.disjunction(*(formula(self == value) for value in values)))
 
     def __repr__(self) -> str:
-        return f"<{ex.shown(self.expr)}>"
+        return f"<{shown(self.expr)}>"
 
 
 class Element(Term):
@@ -150,8 +152,8 @@ class Quantifier:
     def __call__(self, body: Any) -> Term:
         inner = formula(body)
         if self.universal:
-            return Term(ex.bind(True, self.bound, ex.disjunction(ex.negation(self.condition), inner)))
-        return Term(ex.bind(False, self.bound, ex.conjunction(self.condition, inner)))
+            return Term(bind(True, self.bound, ex.disjunction(ex.negation(self.condition), inner)))
+        return Term(bind(False, self.bound, ex.conjunction(self.condition, inner)))
 
     def where(self, condition: Any) -> Quantifier:
         """Only the elements for which ``condition`` holds."""
@@ -229,7 +231,7 @@ def value_of(value: Any, sort: Sort) -> Expr:
     if isinstance(value, Term):
         if not same_kind(value.sort, sort):
             raise mistake(
-                f"{ex.shown(value.expr)} is of sort {value.sort}, not {sort}", "compare like with like"
+                f"{shown(value.expr)} is of sort {value.sort}, not {sort}", "compare like with like"
             )
         return value.expr
     const = ex.literal(value, sort)
@@ -252,7 +254,7 @@ def _pair(left: Any, right: Any) -> tuple[Expr, Expr]:
 
 def _numbers(left: Term, right: Any) -> tuple[Expr, Expr]:
     if not isinstance(left.sort, IntSort):
-        raise mistake(f"{ex.shown(left.expr)} is of sort {left.sort}, not an integer", "order only integers")
+        raise mistake(f"{shown(left.expr)} is of sort {left.sort}, not an integer", "order only integers")
     return _pair(left, right)
 
 

@@ -16,6 +16,7 @@ import z3
 from mmsverify.model import expr as ex
 from mmsverify.model.expr import Expr
 from mmsverify.model.model import ModelData
+from mmsverify.model.rewrite import bind, rebuilt
 from mmsverify.model.rows import Claim, Row, after
 from mmsverify.model.terms import SetOf
 from mmsverify.symbolic.translate import Translator
@@ -84,7 +85,7 @@ class Coverage:
         signature = self.model.signatures[name]
         refs = tuple(ex.Ref(f"at{i}", sort) for i, sort in enumerate(signature.sorts))
         cell = ex.Cell(name, refs, signature.of)
-        return ex.bind(True, refs, ex.equal(after(cell, left.assigns), after(cell, right.assigns)))
+        return bind(True, refs, ex.equal(after(cell, left.assigns), after(cell, right.assigns)))
 
     def _ask(self, *conditions: Expr) -> z3.CheckSatResult:
         self.solver.push()
@@ -105,11 +106,11 @@ def _possible(row: Row) -> Expr:
     sets = frozenset(choice.name for choice in row.choices if isinstance(choice, SetOf))
     guard = _without(row.guard_formula, sets)
     read = ex.refs_of(guard)
-    return ex.bind(False, tuple(c for c in row.choices if isinstance(c, ex.Ref) and c.name in read), guard)
+    return bind(False, tuple(c for c in row.choices if isinstance(c, ex.Ref) and c.name in read), guard)
 
 
 def _without(expr: Expr, sets: frozenset[str]) -> Expr:
     """The expression where the sets are empty."""
     if isinstance(expr, ex.Member) and expr.set in sets:
         return ex.FALSE
-    return ex.rebuilt(expr, lambda part: _without(part, sets))
+    return rebuilt(expr, lambda part: _without(part, sets))
