@@ -17,7 +17,7 @@ from mmsverify.concrete.machine import Machine
 from mmsverify.concrete.scope import Binding, Scope, Value, cell_name
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Claim, Row
-from mmsverify.model.sorts import Enumeration
+from mmsverify.model.sorts import BOOL, Enumeration
 from mmsverify.results import PathStep
 
 
@@ -88,7 +88,7 @@ def _path_step(model: ModelData, scope: Scope, taken: Taken) -> PathStep:
 
 
 def readable_state(model: ModelData, scope: Scope, state: Valuation, rigid: bool = False) -> dict[str, Any]:
-    """Every cell and every definition by its printed name, with its value in the model's words."""
+    """Every cell, and every definition that is no mere truth value, by printed name, in the model's words."""
     cells = {
         cell_name(key): readable(held)
         for key, held in state.items()
@@ -98,9 +98,11 @@ def readable_state(model: ModelData, scope: Scope, state: Valuation, rigid: bool
 
 
 def defined(model: ModelData, scope: Scope, state: Valuation) -> dict[str, Value | None]:
-    """The value of every definition at all its arguments, by printed name."""
+    """The value of every definition by printed name, save Boolean ones: they only repeat what cells say."""
     found: dict[str, Value | None] = {}
     for name, (parameters, body) in model.definitions.items():
+        if body.sort is BOOL:
+            continue
         for args in product(*(scope.values(parameter.of) for parameter in parameters)):
             bindings = dict(zip((p.name for p in parameters), args, strict=True))
             found[cell_name((name, tuple(map(str, args))))] = value(body, Moment(scope, state, bindings))

@@ -82,8 +82,10 @@ def _arguments(step: PathStep) -> str:
 
 
 def _whole(step: PathStep) -> list[str]:
-    """The first state has no state before it to differ from: it is told whole, several cells a line."""
-    return folded(assignments(step.state), WIDTH - len(INDENT))
+    """The first state has no state before it to differ from: it is told whole, but for what is false or 0."""
+    told = {cell: held for cell, held in step.state.items() if held is not False and held != 0}
+    rest = ["(everything else is false or 0)"] if len(told) < len(step.state) else []
+    return folded(assignments(told), WIDTH - len(INDENT)) + rest
 
 
 def _changes(before: Mapping[str, str], after: Mapping[str, str]) -> list[str]:
