@@ -71,7 +71,6 @@ class Device:
 
     def _release(self, name: str) -> None:
         if name not in self.base_only:
-            self.belief.respond(name, "release", {"user": name}, PLUS)
             self.belief.respond(name, "release", {"user": name}, "")
 
     def _association(self, name: str) -> Association:

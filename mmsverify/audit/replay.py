@@ -12,11 +12,12 @@ from mmsverify.errors import DecodeError, UsageError
 from mmsverify.formats import mms
 from mmsverify.formats.mcap import McapTrace
 from mmsverify.formats.trace import TraceMessage
-from mmsverify.model import ModelData, load
+from mmsverify.model import Claim, ModelData, load
 from mmsverify.resources import models_dir
 from mmsverify.results import Finding
 
 ROBOT = "mms-robot"
+PROVED = "repaired"
 Tables = Mapping[str, Mapping[str, Any]]
 
 
@@ -61,9 +62,13 @@ class Replay:
             _, facts = scenario(sizes, self.profile)
             base = frozenset(name for owner, name in self._base_only if owner == vmd)
             self._devices[vmd] = Device(
-                Place(self.trace.path, vmd), Belief(self.model, facts), self._arms(), base
+                Place(self.trace.path, vmd), Belief(self.model, facts, self._proved()), self._arms(), base
             )
         return self._devices[vmd]
+
+    def _proved(self) -> tuple[Claim, ...]:
+        """The invariants that may be relied upon: those of the repaired reading are proved, the text's own are not."""
+        return self.model.always if self.model.variant == PROVED else ()
 
     def _arms(self) -> frozenset[str]:
         """The domains that represent an arm: those of the program invocations that the profile calls arms."""

@@ -20,7 +20,7 @@ from mmsverify.concrete.belief.truth import ABSENT, Env, value
 from mmsverify.concrete.belief.values import NO, YES, exactly, plain
 from mmsverify.model.expr import Ref
 from mmsverify.model.model import ModelData
-from mmsverify.model.rows import MINUS, PLUS, Clause, Row
+from mmsverify.model.rows import MINUS, PLUS, Claim, Clause, Row
 from mmsverify.model.sorts import ElementSort, Enumeration, EnumSort, Sort
 
 LARGEST_BELIEF = 300
@@ -43,14 +43,20 @@ class _Watch:
 
 
 class Belief:
-    """What is known about one device under one model. ``facts`` are what a profile fixes, by variable and names."""
+    """What is known about one device under one model.
 
-    def __init__(self, model: ModelData, facts: Mapping[Key, Any] | None = None) -> None:
+    ``facts`` are what a profile fixes, by variable and names; ``invariants`` are claims that have been proved of
+    the model: they tell what else follows from what is seen. A claim that does not hold would make conforming
+    recordings impossible.
+    """
+
+    def __init__(
+        self, model: ModelData, facts: Mapping[Key, Any] | None = None, invariants: Sequence[Claim] = ()
+    ) -> None:
         self.model = model
         self.world = World(model)
-        claims = [(c.formula, c.clause) for c in model.always] + [
-            (a.condition, a.clause) for a in model.assumptions
-        ]
+        claims = [(c.formula, c.clause) for c in invariants]
+        claims += [(a.condition, a.clause) for a in model.assumptions]
         self.constraints = Constraints(self.world, claims)
         self.unseen = Unseen(model, self.constraints)
         self.states: list[Partial] = [Partial(self.world, {})]

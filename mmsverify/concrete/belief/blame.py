@@ -77,10 +77,15 @@ def _breach(row: Row, state: Partial, env: Env, refusals: Sequence[Refusal]) -> 
     invariant = next((r.invariant for r in stuck if r.invariant.ids and not broken), Clause(()))
     if not broken:
         where = max(stuck, key=lambda r: r.passed, default=None)
-        broken = [(where.passed, where.conjunct)] if where else [(len(row.guard), row.guard[-1])]
+        broken = [(where.passed, where.conjunct)] if where else [(len(row.guard), _whole(row))]
     errors = [pair for pair in broken if pair[1].level == "error"]
     passed, conjunct = (errors or broken)[0]
     return _Breach(conjunct, invariant, state, len(broken), "error" if errors else "warning", passed)
+
+
+def _whole(row: Row) -> Conjunct:
+    """The row as one condition: where its guard may hold, but nothing that it leads to can be."""
+    return Conjunct(row.guard_formula, row.clause, row.name, "what it leads to cannot be")
 
 
 def _sentence(says: str, states: Sequence[Partial], env: Env) -> str:
