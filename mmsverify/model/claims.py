@@ -1,4 +1,7 @@
-"""Declared claims: what must hold of every state, of some reachable state, of every step; and what the text leaves open."""
+"""Declared claims: what must hold of every state, of some reachable state, of every step.
+
+Beside them: conditions on the start, assumptions on what never changes, and what the text leaves open.
+"""
 
 from __future__ import annotations
 
@@ -43,13 +46,19 @@ class Always(ClaimSource):
 
 
 class Sometimes(ClaimSource):
-    """Holds in some reachable state, or (where it speaks of ``.next``) of some step; beside every ``Always``, so that no proof is vacuous."""
+    """Holds in some reachable state, or (where it speaks of ``.next``) of some step.
+
+    It stands beside every ``Always``, so that no proof is vacuous.
+    """
 
     kind = "sometimes"
 
 
 class Step(ClaimSource):
-    """Holds of every step: a formula over ``x`` and ``x.next``. ``by`` restricts it to the rows of some services or answers."""
+    """Holds of every step: a formula over ``x`` and ``x.next``.
+
+    ``service_is`` and ``answered`` restrict it to the rows of some services or answers.
+    """
 
     kind = "step"
 

@@ -1,4 +1,7 @@
-"""Declarations of a model: sorts of things, state variables, definitions, events. Names come from the class body."""
+"""Declarations of a model: sorts of things, state variables, definitions, events.
+
+Names come from the class body. Rows and claims are made of these; ``procedure`` and ``claims`` declare them.
+"""
 
 from __future__ import annotations
 
@@ -60,7 +63,7 @@ class Each(Declared):
 
 
 def parameter(name: str, of: type[Enumeration] | Sort) -> Element:
-    """A parameter of an event that is a value, not a name: a Boolean, an integer or a member of an enumeration."""
+    """A parameter of an event that is a value: a Boolean, an integer or a member of an enumeration."""
     return Element(Ref(name, of if isinstance(of, Sort) else enumeration(of)))
 
 
@@ -71,10 +74,10 @@ def optional(name: str, of: type[Enumeration] | Sort) -> Maybe:
 
 @dataclass(frozen=True, slots=True)
 class Assign:
-    """``variable[args] := value`` for all ``bound`` elements for which ``where`` holds; all read the state before.
+    """``variable[args] := value`` for all ``bound`` elements with ``where``; all read the state before.
 
-    A list of these is applied in order: a later one wins where two touch one cell. ``clauses`` are those of the step
-    that makes it.
+    A list of these is applied in order: a later one wins where two touch one cell. ``clauses`` are those of
+    the step that makes it.
     """
 
     variable: str
@@ -86,13 +89,16 @@ class Assign:
     clauses: tuple[str, ...] = field(default=(), compare=False)
 
     def when(self, condition: Any) -> Assign:
-        """The same update, only where ``condition`` holds; it may speak of the elements that ``over`` has bound."""
+        """The same update where ``condition`` holds; it may speak of the elements that ``over`` has bound."""
         marked = {ref.name.removesuffix("·"): ref for ref in self.bound}
         where = ex.conjunction(self.where, substitute(formula(condition), marked))
         return replace(self, where=where)
 
     def over(self, *elements: Element) -> Assign:
-        """The same update for every value of ``elements``; their names are marked, so that no parameter is taken for them."""
+        """The same update for every value of ``elements``.
+
+        Their names are marked, so that no parameter is taken for them.
+        """
         marked = {e.ref.name: Ref(e.ref.name + "·", e.ref.of) for e in elements}
         return replace(
             self,
@@ -127,9 +133,9 @@ class Place(Term):
 class Variable(Declared):
     """A state variable: a function from elements to values of ``of``'s sort.
 
-    ``Variable(Control, of=PI)`` is ``control[pi]``; without ``of`` it is one cell, written ``name[()]`` or ``name()``.
-    ``rigid`` ones never change (what a profile fixes). ``initially`` gives the value at power-on as a function of
-    the arguments, or a literal; ``None`` leaves it open (see ``Initially``).
+    ``Variable(Control, of=PI)`` is ``control[pi]``; without ``of`` it is one cell, written ``name[()]`` or
+    ``name()``. ``rigid`` ones never change (what a profile fixes). ``initially`` gives the value at power-on
+    as a function of the arguments, or a literal; ``None`` leaves it open (see ``Initially``).
     """
 
     def __init__(
@@ -189,7 +195,9 @@ class Derived(Declared):
     def __init__(
         self, definition: Any, *, over: Iterable[Element] = (), repairs: object = None, doc: str = ""
     ) -> None:
-        self.parameters = tuple(e.ref for e in over)
+        listed = tuple(over)
+        self.parameters = tuple(e.ref for e in listed)
+        self.sorts: tuple[Sort, ...] = tuple(e.sort for e in listed)
         self.definition: Expr = definition.expr
         self.repairs = repairs
         self.doc = doc
@@ -197,8 +205,7 @@ class Derived(Declared):
 
     def __getitem__(self, args: Any) -> Place:
         listed = args if isinstance(args, tuple) else (args,)
-        sorts = tuple(ref.of for ref in self.parameters)
-        return Place(cell(self.name, listed, sorts, self.definition.sort))  # type: ignore[arg-type]
+        return Place(cell(self.name, listed, self.sorts, self.definition.sort))
 
     def __call__(self) -> Place:
         return self[()]
@@ -208,8 +215,8 @@ class Derived(Declared):
 class On:
     """The event that a row answers to: its phase, the service it belongs to and its parameters in order.
 
-    ``indication``: a request arrives; ``response``: the responder decides and acts; ``shown``: a message shows state
-    and changes nothing; ``internal``: nothing that a message shows.
+    ``indication``: a request arrives; ``response``: the responder decides and acts; ``shown``: a message
+    shows state and changes nothing; ``internal``: nothing that a message shows.
     """
 
     phase: str

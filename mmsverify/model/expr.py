@@ -1,8 +1,8 @@
 """Expressions as data: frozen, structurally equal, picklable. Every reader of a model walks these nodes.
 
-No operator overloading here (that is ``terms``), no rewriting (``rewrite``), no text (``show``), and no meaning
-beyond structure (that is each reader's): the nodes, the functions that make them, and what occurs in them.
-Conjunctions and disjunctions are flat and keep their order, for replay names the conjunct that failed.
+No operator overloading here (that is ``terms``), no rewriting (``rewrite``), no text (``show``), and no
+meaning beyond structure (that is each reader's): the nodes, the functions that make them, and what occurs in
+them. Conjunctions and disjunctions are flat and keep their order, for replay names the conjunct that failed.
 """
 
 from __future__ import annotations

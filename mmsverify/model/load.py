@@ -15,8 +15,9 @@ from mmsverify.model.model import Model, ModelData, assemble
 def load(name_or_path: str, folder: Path, variant: str | None = None) -> ModelData:
     """The model called ``name_or_path`` in ``folder``, or in the file or package at that path.
 
-    Without ``variant``: ``repaired`` where the file has one, else its only variant. Raises :class:`ModelError` for a file
-    that is not a model, :class:`UsageError` for a name or variant that does not exist.
+    Without ``variant``: ``repaired`` where the file has one, else its only variant. Raises
+    :class:`ModelError` for a file that is not a model, :class:`UsageError` for a name or variant that does
+    not exist.
     """
     variants = load_variants(name_or_path, folder)
     wanted = variant or ("repaired" if "repaired" in variants else next(iter(variants)))
@@ -29,20 +30,20 @@ def load(name_or_path: str, folder: Path, variant: str | None = None) -> ModelDa
 
 
 def load_variants(name_or_path: str, folder: Path) -> dict[str, type[Model]]:
-    """The model classes of a file by variant: those that state a ``variant``, or else the last class of the file."""
+    """The model classes of a file by variant: those that state one, or else the last class of the file."""
     path = find(name_or_path, folder)
     module = _execute(path)
     classes = [
         c for c in vars(module).values() if isinstance(c, type) and issubclass(c, Model) and c is not Model
     ]
+    if not classes:
+        raise ModelError(
+            "no model in this file",
+            place=str(path),
+            cure="write a class that extends mmsverify.model.Model",
+        )
     stated = {str(c.options["variant"]): c for c in classes if "variant" in c.options}
-    if stated or not classes:
-        if not stated:
-            raise ModelError(
-                "no model in this file",
-                place=str(path),
-                cure="write a class that extends mmsverify.model.Model",
-            )
+    if stated:
         return stated
     own = [c for c in classes if c.__module__ == module.__name__] or classes
     return {"as-written": own[-1]}

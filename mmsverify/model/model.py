@@ -1,8 +1,8 @@
 """A model: a class body whose names are its declarations, assembled into plain data for the readers.
 
-A class body sees the names that its base classes declare, so that a model can be split by clause over several files and
-still read like one text. A name declared twice in one body, or in two parts that do not know of each other, is refused;
-a variant may redeclare a name only with the repair that explains it.
+A class body sees the names that its base classes declare, so that a model can be split by clause over several
+files and still read like one text. A name declared twice in one body, or in two parts that do not know of
+each other, is refused; a variant may redeclare a name only with the repair that explains it.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from mmsverify.model.sorts import ElementSort
 
 
 class _Body(dict[str, Any]):
-    """The namespace of a class body: names declarations at once, refuses a second one, sees the names of the bases."""
+    """The namespace of a class body: names declarations, refuses a second one, sees those of the bases."""
 
     def __init__(self, title: str, inherited: Mapping[str, Declared], words: Mapping[str, Any]) -> None:
         super().__init__()
@@ -73,7 +73,7 @@ class _Assembler(type):
     options: Mapping[str, Any]
 
     @classmethod
-    def __prepare__(mcs, title: str, bases: tuple[type, ...], /, **_options: Any) -> _Body:
+    def __prepare__(cls, title: str, bases: tuple[type, ...], /, **_options: Any) -> _Body:
         words = {
             name: value for base in reversed(bases) for name, value in getattr(base, "words", {}).items()
         }
@@ -115,7 +115,10 @@ def _winner(title: str, name: str, left: Declared, right: Declared, bases: tuple
 
 
 class Model(metaclass=_Assembler):
-    """Base class of models and of parts of models: ``class Robot(Model, name="mms-robot", variant="as-written")``."""
+    """What models and parts of models extend.
+
+    ``class Robot(Model, name="mms-robot", variant="as-written")`` is a model; a part needs no options.
+    """
 
     declared: Mapping[str, Declared]
     options: Mapping[str, Any]
@@ -190,11 +193,16 @@ def assemble(source: type[Model]) -> ModelData:
         ),
         claims=tuple(_claims(declared, definitions)),
         gaps=tuple(d.gap() for d in declared.values() if isinstance(d, Unspecified)),
-        repairs={
-            name: d.repairs for name, d in source.declared.items() if getattr(d, "repairs", None) is not None
-        },  # type: ignore[attr-defined]
+        repairs=dict(_repairs(source)),
         options=source.options,
     )
+
+
+def _repairs(source: type[Model]) -> Iterator[tuple[str, Repair]]:
+    for name, d in source.declared.items():
+        repair: Repair | None = getattr(d, "repairs", None)
+        if repair is not None:
+            yield name, repair
 
 
 Definitions = Mapping[str, tuple[tuple[ex.Ref, ...], Expr]]

@@ -1,13 +1,14 @@
 """Declared rows: what a class body writes. A procedure's rows are derived from its printed steps.
 
-One accepting row for each way to result(+), one refusing row for each step that refuses, each with the effects of the
-steps before it: whether a refusal can leave a half-done effect is a question for the checker.
+One accepting row for each way to result(+), one refusing row for each step that refuses, each with the
+effects of the steps before it: whether a refusal can leave a half-done effect is a question for the checker.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Literal
 
 from mmsverify.model import expr as ex
 from mmsverify.model.declare import Assign, Declared, On
@@ -21,7 +22,7 @@ from mmsverify.model.terms import Element, SetOf, Term, formula
 
 
 def repaired(reading: str, *mends: str, because: str) -> Repair:
-    """The reason for a replaced or added row of a variant: its reading, the clauses that it mends, one sentence why."""
+    """The reason for a replaced or added row: its reading, the clauses that it mends, one sentence why."""
     if not mends or not because:
         raise mistake(
             f"the repair {reading} names no clause or no reason",
@@ -46,7 +47,7 @@ def needs(*cites: str, says: str = "", rule: str = "", level: Level = "error", t
 
 
 class Transition(RowSource):
-    """One row: on an event, when all conditions hold, make the updates. ``clause`` cites it; more ids may follow."""
+    """One row: on an event, when all conditions hold, make the updates. ``clauses`` are what it encodes."""
 
     def __init__(
         self,
@@ -75,14 +76,15 @@ class Transition(RowSource):
         self.repairs = repairs
 
     def rows(self) -> Iterator[Row]:
+        explains: Literal["any", "observation"] = "observation" if self.observation_only else "any"
         yield Row(
             self.name, self.on, self.guard, self.then, self.answer, self.clause,
-            explains="observation" if self.observation_only else "any", never_after=self.never_after, place=self.place,
+            explains=explains, never_after=self.never_after, place=self.place,
         )  # fmt: skip
 
 
 class Observation(RowSource):
-    """What a message shows: claims that must hold of the state at some instant between request and response."""
+    """What a message shows: conditions on the state at some instant between request and response."""
 
     def __init__(
         self, *clauses: str, on: On, shows: Sequence[Conjunct], repairs: Repair | None = None
@@ -99,8 +101,8 @@ class Observation(RowSource):
 class Procedure(RowSource):
     """The ordered steps of a service procedure; ``clause`` is the prefix that the printed labels extend.
 
-    ``always`` are updates of every outcome (forgetting the request), ``on_refusal`` those of every result(-) (going
-    back from a transient state). Both read the state that the steps have left.
+    ``always`` are updates of every outcome (forgetting the request), ``on_refusal`` those of every result(-)
+    (going back from a transient state). Both read the state that the steps have left.
     """
 
     def __init__(
@@ -129,13 +131,13 @@ class Procedure(RowSource):
 
 @dataclass(slots=True)
 class _Run:
-    """The symbolic run of a procedure: the conditions passed so far and the effects made so far, over the first state."""
+    """The symbolic run of a procedure: conditions passed and effects made so far, over the first state."""
 
     source: Procedure
     passed: tuple[Conjunct, ...] = ()
     made: tuple[Assign, ...] = ()
     choices: tuple[Ref | SetOf, ...] = ()
-    clause: Clause = Clause(())
+    clause: Clause = field(default_factory=lambda: Clause(()))
     labels: dict[str, int] = field(default_factory=dict)
 
     def take(self, step: Step) -> Iterator[Row]:
@@ -167,8 +169,9 @@ class _Run:
     ) -> Row:
         last = (*then, *(self.source.on_refusal if answer == MINUS else ()), *self.source.always)
         own = cited(self.source.clause, step) if answer == MINUS else self.clause
+        assigns = self.made + self._over_start(last)
         return Row(
-            self.source.name, self.source.on, self.passed + more, self.made + self._over_start(last), answer, own,
+            self.source.name, self.source.on, self.passed + more, assigns, answer, own,
             choices=self.choices, step=self._label(step), place=step.place,
         )  # fmt: skip
 

@@ -1,7 +1,7 @@
-"""What a model is made of once it is assembled: rows, claims, clauses. Plain data; every reader takes the same.
+"""What a model is made of once it is assembled: rows, claims, clauses. Plain data, the same for every reader.
 
-A row is one way to answer one event: guard conjuncts, updates, answer. Guards stay lists of conjuncts, so that
-replay can name the one that refused, with its clause.
+A row is one way to answer one event: guard conjuncts, updates, answer. Guards stay lists of conjuncts, so
+that replay can name the one that refused, with its clause.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ PLUS, MINUS, SHOWN = "result(+)", "result(-)", "shown"
 
 @dataclass(frozen=True, slots=True)
 class Clause:
-    """A citation: ids of the clause register, and ids of base assumptions (``B-``) and readings (``RP-``) beside them."""
+    """A citation: ids of the clause register, beside them base assumptions (``B-``), readings (``RP-``)."""
 
     ids: tuple[str, ...]
     readings: tuple[str, ...] = ()
@@ -45,7 +45,7 @@ def _merged(left: Iterable[str], right: Iterable[str]) -> tuple[str, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Repair:
-    """Why a row of a variant differs from the text: the clauses it mends, the reading, the reason in a sentence."""
+    """Why a row of a variant differs from the text: the clauses that it mends, the reading, why."""
 
     mends: Clause
     because: str
@@ -53,7 +53,7 @@ class Repair:
 
 @dataclass(frozen=True, slots=True)
 class Conjunct:
-    """One condition of a guard, with what it rests on. ``says`` is told of its breach, with ``{parameter}`` slots."""
+    """One condition of a guard and what it rests on; ``says`` tells a breach, with ``{parameter}`` slots."""
 
     condition: Expr
     clause: Clause
@@ -66,9 +66,9 @@ class Conjunct:
 class Row:
     """One way to answer an event: if all conjuncts hold, the assignments are made and ``answer`` is given.
 
-    ``choices`` are parameters that no event shows (free choices of the responder). ``explains`` restricts an internal row to
-    the kind of evidence that it may explain: any, or an observed state only. ``never_after`` names internal rows after
-    which it does not fire before the next event.
+    ``choices`` are parameters that no event shows (free choices of the responder). ``explains`` restricts an
+    internal row to the kind of evidence that it may explain: any, or an observed state only. ``never_after``
+    names internal rows after which it does not fire before the next event.
     """
 
     name: str
@@ -143,7 +143,7 @@ class Gap:
 
 @dataclass(frozen=True, slots=True)
 class Signature:
-    """A state variable's shape: the sorts of its arguments, the sort of its value, and whether it ever changes."""
+    """A state variable's shape: the sorts of its arguments and of its value, and whether it ever changes."""
 
     name: str
     sorts: tuple[Sort, ...]
@@ -155,7 +155,8 @@ class Signature:
 def after(expr: Expr, assigns: Sequence[Assign]) -> Expr:
     """The expression, read in the state after the assignments, as one over the state before them.
 
-    This is the only definition of what an update means; the weakest precondition of a formula is ``after`` of it.
+    This is the only definition of what an update means; the weakest precondition of a formula is ``after`` of
+    it.
     """
     by_variable: dict[str, list[Assign]] = {}
     for assign in assigns:

@@ -38,7 +38,7 @@ class BoolSort(Sort):
 
 @dataclass(frozen=True, slots=True)
 class IntSort(Sort):
-    """Integers, with optional inclusive bounds. An unbounded one needs a bound only where states are enumerated."""
+    """Integers, with optional inclusive bounds; one without needs them only where states are enumerated."""
 
     low: int | None = None
     high: int | None = None
@@ -53,7 +53,7 @@ class EnumSort(Sort):
 
 @dataclass(frozen=True, slots=True)
 class ElementSort(Sort):
-    """Names of things of one kind, any number of them (``Each``). An element is a name; existence is a variable."""
+    """Names of things of one kind, any number of them (``Each``); which exist is for a variable to say."""
 
     short: str = ""
 

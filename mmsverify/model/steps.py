@@ -21,7 +21,7 @@ from mmsverify.model.terms import Element, formula
 
 @dataclass(frozen=True, slots=True)
 class StepSource:
-    """What all steps share: the printed label, what it cites beyond that, where it stands in the model file."""
+    """What all steps share: the printed label, what else it cites, where it stands in the model file."""
 
     label: str
     cites: tuple[str, ...]
@@ -57,9 +57,9 @@ class Accept(StepSource):
 class ForEach(StepSource):
     """A loop over the elements for which ``where`` holds, whose body may fail on one of them.
 
-    Iterations are independent: ``body`` reads nothing that another iteration writes. Where ``possible`` fails for one
-    element, the elements handled before it (any subset: the order of a list is not visible) keep ``undo``, and the
-    procedure answers result(-).
+    Iterations are independent: ``body`` reads nothing that another iteration writes. Where ``possible`` fails
+    for one element, the elements handled before it (any subset: the order of a list is not visible) keep
+    ``undo``, and the procedure answers result(-).
     """
 
     element: Ref
@@ -84,10 +84,10 @@ def refuse(
     level: Level = "error",
     then: Sequence[Assign] = (),
 ) -> Refuse:
-    """Step ``label`` answers result(-) where ``when`` holds, or ``unless`` does not; given both, where both say so.
+    """Step ``label`` answers result(-) where ``when`` holds and ``unless`` does not; one may be missing.
 
-    ``then`` are effects of the refusal itself (leaving a transient state, say). ``rule`` and ``says`` name a breach of the
-    step in findings; ``level`` is ``warning`` where only a reading of the project forbids it.
+    ``then`` are effects of the refusal itself (leaving a transient state, say). ``rule`` and ``says`` name a
+    breach of the step in findings; ``level`` is ``warning`` where only a reading of the project forbids it.
     """
     if when is None and unless is None:
         raise mistake(f"step {label} refuses without a condition", "give when=... or unless=...")
@@ -145,7 +145,8 @@ def for_each(
 def cited(clause: str, step: StepSource) -> Clause:
     """The citation of a step: the procedure's clause with the printed label, then what it cites besides.
 
-    A label that starts with a capital is a citation of its own (a reading or a base assumption), not a printed step.
+    A label that starts with a capital is a citation of its own (a reading or a base assumption), not a
+    printed step.
     """
     own = step.label if step.label[:1].isupper() else f"{clause}-{step.label}"
     return Clause.of(own, *step.cites)
@@ -167,7 +168,7 @@ def check_distinct(assigns: Sequence[Assign], place: str) -> None:
 
 
 def _apart(left: Expr, right: Expr) -> bool:
-    """Whether two conditions exclude each other on their face: one has a conjunct whose negation the other has."""
+    """Whether two conditions exclude each other on their face: one negates a conjunct of the other."""
     parts = left.parts if isinstance(left, ex.And) else (left,)
     others = right.parts if isinstance(right, ex.And) else (right,)
     return any(ex.negation(part) == other for part in parts for other in others)

@@ -1,12 +1,13 @@
-"""Operators over expressions: what a model file writes. ``control[a] == CONTROLLING`` is a term, not a truth value.
+"""Operators over expressions: in a model file ``control[a] == CONTROLLING`` is a term, not a truth value.
 
-A term checks sorts when it is built, so that an error has the line of the model file, and refuses to be used as a
-Python truth value: ``if``, ``and``, ``or``, ``not`` and chained comparisons would lose the formula silently.
+A term checks sorts when it is built, so that an error has the line of the model file, and refuses to be used
+as a Python truth value: ``if``, ``and``, ``or``, ``not`` and chained comparisons would lose the formula
+silently.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, NoReturn
 
@@ -29,7 +30,11 @@ from mmsverify.model.sorts import (
 
 
 class Term:
-    """An expression with operators: ``==``, ``!=``, ``<``, ``+``, ``&`` (and), ``|`` (or), ``~`` (not), ``>>`` (implies)."""
+    """An expression with operators.
+
+    ``==``, ``!=``, ``<``, ``+`` and their kin compare and count; ``&`` means and, ``|`` or, ``~`` not,
+    ``>>`` implies.
+    """
 
     __slots__ = ("expr",)
     __hash__: ClassVar[None]  # type: ignore[assignment]
@@ -67,10 +72,10 @@ class Term:
         return Term(ex.less(right, left))
 
     def __le__(self, other: Any) -> Term:
-        return ~(self > other)
+        return ~self.__gt__(other)
 
     def __ge__(self, other: Any) -> Term:
-        return ~(self < other)
+        return ~self.__lt__(other)
 
     def __add__(self, other: Any) -> Term:
         return Term(ex.plus(*_numbers(self, other)))
@@ -212,7 +217,7 @@ def answered(*answers: str) -> Term:
 
 
 def service_is(*services: str) -> Term:
-    """In a two-state claim: the step belongs to one of these services (or is one of these internal events)."""
+    """In a two-state claim: the step belongs to one of these services (or internal events)."""
     return Term(ex.RowFact("service", services))
 
 
@@ -258,11 +263,11 @@ def _numbers(left: Term, right: Any) -> tuple[Expr, Expr]:
     return _pair(left, right)
 
 
-def cell(variable: str, args: tuple[Any, ...], sorts: tuple[ElementSort, ...], of: Sort) -> Cell:
+def cell(variable: str, args: tuple[Any, ...], sorts: Sequence[Sort], of: Sort) -> Cell:
     """The cell of a variable at its arguments, with the sorts checked."""
     if len(args) != len(sorts):
         raise mistake(
             f"{variable} takes {len(sorts)} argument(s), not {len(args)}",
-            f"write {variable}[{', '.join(s.short for s in sorts)}]",
+            f"write {variable}[{', '.join(s.short if isinstance(s, ElementSort) else s.name for s in sorts)}]",
         )
     return Cell(variable, tuple(value_of(arg, sort) for arg, sort in zip(args, sorts, strict=True)), of)
