@@ -38,7 +38,7 @@ def audit_traces(
             findings.append(_unreadable(path, error))
             continue
         merged = tables if profile is not None else {**tables, **from_metadata(trace.profile, str(path))}
-        entry, found = _audit(trace, merged, model or trace.profile.get("model"), variant)
+        entry, found = _audit(trace, merged, model, variant)
         inputs.append(entry)
         findings += found
     return Audit(inputs, findings)

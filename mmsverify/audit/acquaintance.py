@@ -1,7 +1,8 @@
 """Which program invocations a recording has made known (reading RP-21).
 
-ROBOT-IDLE means that no task program is available (5.3.1.3.2.1). What acts from then on without having been predefined, created
-or shown cannot be there. Nothing is said before ROBOT-IDLE is seen, nor after local control or a gap.
+ROBOT-IDLE means that no task program is available (5.3.1.3.2.1). What acts from then on without having been
+predefined, created or shown cannot be there. Nothing is said before ROBOT-IDLE is seen, nor after local
+control or a gap.
 """
 
 from __future__ import annotations

@@ -82,8 +82,8 @@ class Replay:
 
 
 def _robot_model(model: str | None) -> str:
-    if model is not None and model not in (ROBOT, "vr-template", "modbus-signals"):
-        raise UsageError(f"no model {model!r} can replay a recording", place="--model", cure=f"use {ROBOT}")
+    if model not in (None, ROBOT):
+        raise UsageError(f"no model {model!r} replays recordings", place="--model", cure=f"use {ROBOT}")
     return ROBOT
 
 
