@@ -24,7 +24,9 @@ def render(audit: Audit) -> str:
 def summary(audit: Audit) -> str:
     """The closing line: how much was read, how much was found."""
     counts = tally(audit.findings)
-    found = counted(len(audit.findings), "violation") if audit.findings else "no violation"
+    judged = any(entry.events for entry in audit.inputs)
+    none = "no violation" if judged else "nothing was judged: no model knows these channels"
+    found = counted(len(audit.findings), "violation") if audit.findings else none
     parts = ", ".join(counted(number, severity) for severity, number in counts.items())
     messages = counted(sum(entry.messages for entry in audit.inputs), "message")
     unread = sum(entry is None for _, entry, _ in by_input(audit))
