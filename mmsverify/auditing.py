@@ -1,9 +1,12 @@
-"""The composition root of an audit: files in, findings out. Each recording is replayed device by device, event by event."""
+"""The composition root of an audit: files in, findings out.
+
+Each recording is replayed device by device, event by event; a file that cannot be read spoils no other.
+"""
 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +28,7 @@ def audit_traces(
     variant: str = "repaired",
     progress: Callable[[str], None] | None = None,
 ) -> Audit:
-    """Replay every trace against its models. A file that cannot be read is a finding; the others are audited."""
+    """Replay every trace against its model. An unreadable file is a finding; the others are audited."""
     tables = load_profile(profile)
     inputs: list[AuditedInput] = []
     findings: list[Finding] = []
@@ -49,20 +52,23 @@ def _audit(
 ) -> tuple[AuditedInput, list[Finding]]:
     begin = time.perf_counter()
     replay = Replay(trace, tables, model, variant)
-    findings: list[Finding] = []
-    try:
-        for finding in replay.run():
-            findings.append(finding)
-    except InputError as error:
-        findings.append(_unreadable(Path(trace.path), error))
+    findings = list(_findings(replay, Path(trace.path)))
     seconds = round(time.perf_counter() - begin, 3)
     return AuditedInput(
         trace.path, replay.messages, replay.events, replay.skipped, trace.truncated, seconds
     ), findings
 
 
+def _findings(replay: Replay, path: Path) -> Iterator[Finding]:
+    """What the replay finds, up to the point at which the recording cannot be read on."""
+    try:
+        yield from replay.run()
+    except InputError as error:
+        yield _unreadable(path, error)
+
+
 def _unreadable(path: Path, error: MmsverifyError) -> Finding:
     return Finding(
-        path=str(path), index=None, time=None, topic=None, vmd=None, severity="error", rule=UNREADABLE, clauses=("R-7.3.1-2",),
-        message=str(error),
+        path=str(path), index=None, time=None, topic=None, vmd=None, severity="error", rule=UNREADABLE,
+        clauses=("R-7.3.1-2",), message=str(error),
     )  # fmt: skip

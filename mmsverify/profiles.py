@@ -1,4 +1,4 @@
-"""Profiles: what a standard leaves to the implementer, one table per model, from TOML or from a trace's metadata.
+"""Profiles: what a standard leaves to the implementer, a table per model, from TOML or a trace's metadata.
 
 The keys are data; validation and its messages are made from them.
 """
@@ -53,6 +53,10 @@ def _is_int(value: Any) -> bool:
     return isinstance(value, int) and not isinstance(value, bool)
 
 
+def _is_list(value: Any) -> bool:
+    return isinstance(value, list)
+
+
 def _is_numbers(value: Any) -> bool:
     return isinstance(value, list) and all(map(_is_int, value))
 
@@ -79,7 +83,7 @@ KEYS: Mapping[str, Mapping[str, Key]] = {
     "mms-robot": {
         "associations": _choice("single", "multiple"),
         "step_limited": _flag(True),
-        "predefined": Key(PREDEFINED, "a list of tables {name, control, domains, deletable, reusable, controlled}", lambda v: isinstance(v, list)),
+        "predefined": Key(PREDEFINED, f"a list of tables {{{', '.join(ENTRY)}}}", _is_list),
         "selected_at_power_on": _text(""),
         "arms": Key(["R_ARM"], "a list of names", _is_names),
         "single_task": _flag(False),
@@ -103,13 +107,17 @@ KEYS: Mapping[str, Mapping[str, Key]] = {
 def load_profile(path: Path | None) -> dict[str, dict[str, Any]]:
     """The profile in the TOML file, completed with the defaults of every model; without a file, the defaults.
 
-    Raises :class:`ProfileError` for a file that cannot be read, an unknown table or key, a value that is not allowed.
+    Raises :class:`ProfileError` for a file that cannot be read, an unknown table or key, a value that is not
+    allowed.
     """
     return complete({} if path is None else _read(path), str(path or ""))
 
 
 def from_metadata(metadata: Mapping[str, str], place: str) -> dict[str, dict[str, Any]]:
-    """The profile that a trace carries: a model's name and keys as strings (values as in TOML or JSON, or bare words)."""
+    """The profile that a trace carries: a model's name and its keys as strings.
+
+    Values stand there as in TOML or JSON, or as bare words. ``place`` is named in errors.
+    """
     model = metadata.get("model", "")
     if not model:
         return {}
@@ -168,8 +176,12 @@ def _check_names(table: Mapping[str, Any], where: str) -> None:
         raise ProfileError(f"{twice[0]} is predefined twice", place=where, cure="give each name once")
     controlling = [entry["name"] for entry in table["predefined"] if entry["control"] == "CONTROLLING"]
     if table["selected_at_power_on"] not in ("", *controlling):
-        raise ProfileError(f"selected_at_power_on names {table['selected_at_power_on']!r}, which is not a predefined CONTROLLING program invocation",
-                           place=where, cure=_meant(table["selected_at_power_on"], controlling or ["\"\""]))  # fmt: skip
+        raise ProfileError(
+            f"selected_at_power_on names {table['selected_at_power_on']!r}, which is not a predefined "
+            "CONTROLLING program invocation",
+            place=where,
+            cure=_meant(table["selected_at_power_on"], controlling or ['""']),
+        )
 
 
 def _meant(name: str, known: Any) -> str:

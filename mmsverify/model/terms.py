@@ -266,8 +266,8 @@ def _numbers(left: Term, right: Any) -> tuple[Expr, Expr]:
 def cell(variable: str, args: tuple[Any, ...], sorts: Sequence[Sort], of: Sort) -> Cell:
     """The cell of a variable at its arguments, with the sorts checked."""
     if len(args) != len(sorts):
+        wanted = ", ".join(s.short if isinstance(s, ElementSort) else s.name for s in sorts)
         raise mistake(
-            f"{variable} takes {len(sorts)} argument(s), not {len(args)}",
-            f"write {variable}[{', '.join(s.short if isinstance(s, ElementSort) else s.name for s in sorts)}]",
+            f"{variable} takes {len(sorts)} argument(s), not {len(args)}", f"write {variable}[{wanted}]"
         )
     return Cell(variable, tuple(value_of(arg, sort) for arg, sort in zip(args, sorts, strict=True)), of)

@@ -1,8 +1,8 @@
 """Inductive invariants: initiation and consecution of every claim, for any number of elements.
 
-The claims strengthen each other: all are assumed together. Those that fail are dropped and the rest is tried again
-until it is stable (Houdini; Flanagan and Leino, FME 2001), so that what remains is inductive on its own. A dropped claim
-is not refuted; that takes a run (bounded search).
+The claims strengthen each other: all are assumed together. Those that fail are dropped and the rest is tried
+again until it is stable (Houdini; Flanagan and Leino, FME 2001), so that what remains is inductive on its
+own. A dropped claim is not refuted; that takes a run (bounded search).
 """
 
 from __future__ import annotations
@@ -22,7 +22,10 @@ from mmsverify.symbolic.translate import Translator, obligation
 
 @dataclass(frozen=True, slots=True)
 class Obstacle:
-    """Why a claim is not inductive: the row that may break it (``None``: the start), and how Z3 ended (``sat``, ``unknown``)."""
+    """Why a claim is not inductive.
+
+    ``row`` may break it (``None``: the start does), ``answer`` is how Z3 ended: ``sat`` or ``unknown``.
+    """
 
     claim: str
     row: str | None
@@ -82,7 +85,7 @@ class Prover:
     def _broken(
         self, solver: z3.Solver, row: Row, claims: Sequence[Claim], outcome: Induction
     ) -> list[Claim]:
-        """The claims that the row may break; one query for all of them, and one each only where that fails."""
+        """The claims that the row may break: one query for all of them, and one each where that fails."""
         goals = [(c, obligation(c, row)) for c in claims if may_break(row, c)]
         goals = [(c, goal) for c, goal in goals if goal != ex.TRUE]
         if not goals:
@@ -131,5 +134,8 @@ class Prover:
 
 
 def may_break(row: Row, claim: Claim) -> bool:
-    """Whether the row writes a variable that the claim reads; others it cannot break (two-state claims may ask for the row)."""
+    """Whether the row writes a variable that the claim reads; it can break no other.
+
+    A two-state claim may ask for the row itself, so that any row may break it.
+    """
     return claim.kind == "step" or bool(row.writes & ex.variables_of(claim.formula))

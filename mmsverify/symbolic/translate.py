@@ -1,13 +1,14 @@
-"""From expressions to Z3 terms over uninterpreted sorts: what is proved of them holds for any number of elements.
+"""From expressions to Z3 terms over uninterpreted sorts: what is proved holds for any number of elements.
 
-The translation is one to one. The state after a step is never named: a formula over it is first rewritten over the state
-before (``mmsverify.model.rows.after``), so unrolling is substitution. Optional parameters become a constant and a presence
-Boolean; set-valued ones a fresh unary relation.
+The translation is one to one. The state after a step is never named: a formula over it is first rewritten
+over the state before (``mmsverify.model.rows.after``), so unrolling is substitution. Optional parameters
+become a constant and a presence Boolean; set-valued ones a fresh unary relation.
 """
 
 from __future__ import annotations
 
 import itertools
+from collections.abc import Callable
 from typing import Any
 
 import z3
@@ -39,7 +40,8 @@ _SERIAL = itertools.count()
 class Translator:
     """Z3 sorts and functions for one model, and the translation of its expressions.
 
-    ``state`` distinguishes copies of the state (for unrolling): the functions of copy ``k`` are named ``variable@k``.
+    ``state`` distinguishes copies of the state (for unrolling): the functions of copy ``k`` are named
+    ``variable@k``.
     """
 
     def __init__(self, model: ModelData) -> None:
@@ -115,24 +117,10 @@ class Translator:
                 return z3.Function(name + suffix, self.sort(element.sort), z3.BoolSort())(sub(element))
             case Present(name):
                 return z3.Bool(f"{name}{suffix}!present")
-            case Not(body):
-                return z3.Not(sub(body))
-            case And(parts):
-                return z3.And(*map(sub, parts))
-            case Or(parts):
-                return z3.Or(*map(sub, parts))
-            case Eq(left, right):
-                return sub(left) == sub(right)
-            case Less(left, right):
-                return sub(left) < sub(right)
-            case Plus(left, right, factor):
-                return sub(left) + factor * sub(right)
-            case Ite(condition, then, otherwise):
-                return z3.If(sub(condition), sub(then), sub(otherwise))
             case Quantified(universal, bound, body):
                 names = [self.parameter(ref, suffix) for ref in bound]
                 return (z3.ForAll if universal else z3.Exists)(names, sub(body))
-        raise TypeError(f"no translation for {expr!r}")
+        return _connected(expr, sub)
 
     def _literal(self, value: bool | int | Enumeration, sort: Sort) -> z3.ExprRef:
         if isinstance(value, bool):
@@ -158,6 +146,26 @@ class Translator:
             [] if sort.high is None else [value <= sort.high]
         )
         return [z3.ForAll(names, limit) if names else limit for limit in limits]
+
+
+def _connected(expr: Expr, sub: Callable[[Expr], Any]) -> Any:
+    """A node whose meaning is that of its parts: connectives, comparisons, sums, choices."""
+    match expr:
+        case Not(body):
+            return z3.Not(sub(body))
+        case And(parts):
+            return z3.And(*map(sub, parts))
+        case Or(parts):
+            return z3.Or(*map(sub, parts))
+        case Eq(left, right):
+            return sub(left) == sub(right)
+        case Less(left, right):
+            return sub(left) < sub(right)
+        case Plus(left, right, factor):
+            return sub(left) + factor * sub(right)
+        case Ite(condition, then, otherwise):
+            return z3.If(sub(condition), sub(then), sub(otherwise))
+    raise TypeError(f"no translation for {expr!r}")
 
 
 def obligation(claim: Claim, row: Row) -> Expr:
