@@ -32,7 +32,10 @@ class Place:
 
 
 class Device:
-    """The replay of one robot's messages. ``base_only`` names associations to which the robot standard does not apply."""
+    """The replay of one robot's messages.
+
+    ``arms`` are the domains of its arms; to associations in ``base_only`` the robot standard does not apply.
+    """
 
     def __init__(
         self, place: Place, belief: Belief, arms: frozenset[str], base_only: frozenset[str] = frozenset()
@@ -253,7 +256,10 @@ class Device:
             self._founded[condition] = self._possible(condition)
 
     def _possible(self, condition: str) -> bool:
-        """Whether the state from which the condition's transition leads may hold now; unknown conditions always may."""
+        """Whether the state from which the condition's transition leads may hold now.
+
+        Of an unknown condition nothing is known, so that it always may.
+        """
         if condition == "R_RVS":
             return self.belief.may_be("robot_state", (), "ROBOT-EXECUTING")
         if condition == "R_ARM":
@@ -301,7 +307,7 @@ class Device:
             self._writers[key] = (message.index, made)
 
     def _repeated(self, message: TraceMessage, blame: Blame, shown: str | None) -> bool:
-        """Whether the same contradiction was told a short while ago: a lie that every poll repeats is one finding."""
+        """Whether it was told shortly before: a contradiction that every poll repeats is one finding."""
         key = (blame.rule, blame.says, blame.clause, shown)
         last = self._recent.get(key)
         self._recent[key] = message.index
@@ -317,8 +323,10 @@ class Device:
         observed = f"{title(service)} answered {answer}" if answer else f"{title(service)} shows"
         says = f"{observed}, but {blame.says}" if answer else f"{title(service)}: {blame.says}"
         return Finding(
-            path=self.place.path, index=message.index, time=message.time, topic=message.topic, vmd=self.place.vmd,
-            severity="error" if blame.level == "error" else "warning", rule=blame.rule, clauses=tuple(dict.fromkeys((*blame.clause.ids, *made))), message=says,
+            path=self.place.path, vmd=self.place.vmd,
+            index=message.index, time=message.time, topic=message.topic,
+            severity="error" if blame.level == "error" else "warning", rule=blame.rule,
+            clauses=tuple(dict.fromkeys((*blame.clause.ids, *made))), message=says,
             expected=blame.expected, observed=answer or "shown", before=blame.before,
             related=tuple(sorted(({*related, *writers}) - {message.index})), readings=blame.clause.readings,
         )  # fmt: skip
@@ -327,7 +335,9 @@ class Device:
         rule = RULES[breach.rule]
         cited = clause + rule.clause if clause is not None else rule.clause
         return Finding(
-            path=self.place.path, index=message.index, time=message.time, topic=message.topic, vmd=self.place.vmd,
-            severity=rule.severity, rule=rule.id, clauses=cited.ids, message=rule.says.format(**breach.words), expected=(), observed="",
+            path=self.place.path, vmd=self.place.vmd,
+            index=message.index, time=message.time, topic=message.topic,
+            severity=rule.severity, rule=rule.id, clauses=cited.ids,
+            message=rule.says.format(**breach.words), expected=(), observed="",
             related=breach.related, readings=cited.readings,
         )  # fmt: skip

@@ -1,4 +1,4 @@
-"""One association: requests and their responses, what was negotiated, and the breaches that follow from these alone.
+"""One association: requests and their responses, what was negotiated, and breaches of these alone.
 
 Requests pair with responses by the requesting side and the invokeID: a robot asks, too (DownloadSegment).
 """
@@ -19,7 +19,7 @@ ANSWERS = frozenset({"confirmed-ResponsePDU", "confirmed-ErrorPDU"})
 
 @dataclass(frozen=True, slots=True)
 class Breach:
-    """A rule that a message breaks, with the words for its sentence; ``related`` are the messages that show it."""
+    """A rule that a message breaks, with the words for its sentence, and the other messages that show it."""
 
     rule: str
     words: Mapping[str, Any] = field(default_factory=dict)
@@ -28,7 +28,7 @@ class Breach:
 
 @dataclass(frozen=True, slots=True)
 class Asked:
-    """A request that waits for its answer; ``slot`` is its name for the model, free again once it is answered."""
+    """A request that waits for its answer; ``slot`` is its name in the model, free again once answered."""
 
     index: int
     side: str
@@ -38,7 +38,10 @@ class Asked:
 
 @dataclass(slots=True)
 class Negotiated:
-    """What Initiate agreed: outstanding requests by requesting side, services and additional services by answering side."""
+    """What Initiate agreed.
+
+    ``outstanding`` counts requests by requesting side; ``services`` and ``additional`` are by answering side.
+    """
 
     outstanding: dict[str, int] = field(default_factory=dict)
     services: dict[str, frozenset[str]] = field(default_factory=dict)

@@ -1,4 +1,7 @@
-"""The replay of one recording: which channel belongs to which device, which model judges it, what is skipped."""
+"""The replay of one recording: which channel belongs to which device, which model judges it, what is skipped.
+
+What a message means to its device is told in ``device``.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +25,10 @@ Tables = Mapping[str, Mapping[str, Any]]
 
 
 class Replay:
-    """One recording under a profile. ``messages``, ``events`` and ``skipped`` are counts, true once the run is over."""
+    """One recording under a profile.
+
+    ``messages``, ``events`` and ``skipped`` are counts, true once the run is over.
+    """
 
     def __init__(self, trace: McapTrace, tables: Tables, model: str | None, variant: str) -> None:
         self.trace = trace
@@ -30,7 +36,7 @@ class Replay:
         self.model: ModelData = load(_robot_model(model), models_dir(), variant)
         self.messages = self.events = self.skipped = 0
         self._devices: dict[str, Device] = {}
-        self._base_only = _base_only(trace, self.profile)
+        self._base_only = _base_only(trace)
 
     def run(self) -> Iterator[Finding]:
         """The findings, in event order."""
@@ -67,7 +73,7 @@ class Replay:
         return self._devices[vmd]
 
     def _proved(self) -> tuple[Claim, ...]:
-        """The invariants that may be relied upon: those of the repaired reading are proved, the text's own are not."""
+        """The invariants to rely upon: those of the repaired reading are proved, the text's own are not."""
         return self.model.always if self.model.variant == PROVED else ()
 
     def _arms(self) -> frozenset[str]:
@@ -87,8 +93,11 @@ def _robot_model(model: str | None) -> str:
     return ROBOT
 
 
-def _base_only(trace: McapTrace, profile: Mapping[str, Any]) -> frozenset[tuple[str, str]]:
-    """The associations of devices that are no robots: their Initiate shows no additional services, and no robot detail follows."""
+def _base_only(trace: McapTrace) -> frozenset[tuple[str, str]]:
+    """The associations of devices that are no robots, each with its device.
+
+    Their Initiate shows no additional services, and no robot detail follows.
+    """
     begun: dict[tuple[str, str], bool] = {}
     for message in trace:
         if message.message_encoding != "mms-ber":

@@ -1,4 +1,4 @@
-"""MMS PDUs as events of the robot model: which service is performed with which arguments, which attributes are shown.
+"""MMS PDUs as events of the robot model: services performed with their arguments, attributes shown.
 
 Only the meaning of fields is here. Nothing is judged, no state is kept.
 """
@@ -25,7 +25,7 @@ class Call:
 
 
 def performed(pdu: Pdu, arms: frozenset[str]) -> Call | None:
-    """The service that a request asks the robot to perform; ``None`` for one that changes nothing in the model.
+    """The service that a request asks for; ``None`` for one that changes nothing in the model.
 
     ``arms`` are the domains that represent a robot arm.
     """
@@ -98,8 +98,12 @@ def shown_by_status(body: Mapping[str, Any], detail: Mapping[str, Any] | None) -
                                 "shown_robot": None, "selected_is": None, "shown_local": None}  # fmt: skip
     if detail is not None:
         kind, name = detail["selectedProgramInvocation"]
-        bindings |= {"detailed": True, "shown_robot": words.word(words.ROBOT_STATE, detail["robotVMDState"]),
-                     "selected_is": name if kind == "programInvocation" else None, "shown_local": _bit(detail, 3)}  # fmt: skip
+        bindings |= {
+            "detailed": True,
+            "shown_robot": words.word(words.ROBOT_STATE, detail["robotVMDState"]),
+            "selected_is": name if kind == "programInvocation" else None,
+            "shown_local": _bit(detail, 3),
+        }
     return Call("status", bindings)
 
 
@@ -117,13 +121,17 @@ def shown_by_attributes(name: str, body: Mapping[str, Any], detail: Mapping[str,
     if state is None:
         return None
     return Call("getProgramInvocationAttributes", {
-        "pi": name, "shown_state": state, "shown_deletable": body["mmsDeletable"], "shown_reusable": body["reusable"],
+        "pi": name, "shown_state": state,
+        "shown_deletable": body["mmsDeletable"], "shown_reusable": body["reusable"],
         "extended": detail is not None, **_control(detail),
     })  # fmt: skip
 
 
+_NO_CONTROL: tuple[str, Any] = ("normal", None)
+
+
 def _control(detail: Mapping[str, Any] | None) -> dict[str, Any]:
-    kind, content = detail["control"] if detail is not None else ("normal", None)
+    kind, content = _NO_CONTROL if detail is None else detail["control"]
     shown: dict[str, Any] = {
         "shown_control": kind.upper(),
         "listed": frozenset(),
@@ -144,7 +152,10 @@ def _control(detail: Mapping[str, Any] | None) -> dict[str, Any]:
 
 
 def read_values(request: Pdu, response: Pdu) -> Iterator[tuple[str, tuple[str, Any]]]:
-    """The named variables of a Read, or of an InformationReport (``request`` and ``response`` alike), with their values."""
+    """The named variables of a Read with their values.
+
+    Of an InformationReport, ``request`` and ``response`` are the report itself.
+    """
     kind, content = request.body["variableAccessSpecification"]
     if kind != "listOfVariable":
         return
@@ -156,7 +167,11 @@ def read_values(request: Pdu, response: Pdu) -> Iterator[tuple[str, tuple[str, A
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """Why a service failed, as far as it matters: for a reason of the controller's own, for want of the object, how it left the state."""
+    """Why a service failed, as far as it matters.
+
+    ``local``: for a reason of the controller's own; ``unknown_object``: for want of the object; ``state``: in
+    which state the failure left the program invocation, where the error says so.
+    """
 
     local: bool
     unknown_object: bool

@@ -1,4 +1,4 @@
-"""The rules that no state of a model expresses: what the base standard and the association's negotiation say of messages.
+"""Rules that no state of a model expresses: what the base standard and the negotiation say of messages.
 
 Each rule is data; the code that applies one names it by its id.
 """
@@ -27,24 +27,93 @@ def _rule(name: str, says: str, *cites: str, severity: Severity = "error") -> Ru
 
 
 _LISTED = (
-    _rule("protocol.undecodable", "these octets are not an MMS PDU: {cause}", "R-7.3.1-2", "R-7.3.4-3", "B-SYNTAX"),
-    _rule("protocol.invoke-id-reused", "invokeID {invoke} is used again while the request #{first} with it is outstanding", "R-7.3.4-3", "B-INVOKE-ID"),
-    _rule("protocol.too-many-outstanding", "{count} requests of the {side} are outstanding where {limit} was negotiated", "R-7.3.4-3", "B-OUTSTANDING"),
-    _rule("protocol.unasked", "the {side} answers invokeID {invoke}, which nobody asked", "R-7.3.4-3", "B-RESPONSE"),
-    _rule("protocol.other-service", "the request was {asked}, the answer is for {answered}", "R-7.3.4-3", "B-RESPONSE"),
+    _rule(
+        "protocol.undecodable",
+        "these octets are not an MMS PDU: {cause}",
+        "R-7.3.1-2",
+        "R-7.3.4-3",
+        "B-SYNTAX",
+    ),
+    _rule(
+        "protocol.invoke-id-reused",
+        "invokeID {invoke} is used again while the request #{first} with it is outstanding",
+        "R-7.3.4-3",
+        "B-INVOKE-ID",
+    ),
+    _rule(
+        "protocol.too-many-outstanding",
+        "{count} requests of the {side} are outstanding where {limit} was negotiated",
+        "R-7.3.4-3",
+        "B-OUTSTANDING",
+    ),
+    _rule(
+        "protocol.unasked",
+        "the {side} answers invokeID {invoke}, which nobody asked",
+        "R-7.3.4-3",
+        "B-RESPONSE",
+    ),
+    _rule(
+        "protocol.other-service",
+        "the request was {asked}, the answer is for {answered}",
+        "R-7.3.4-3",
+        "B-RESPONSE",
+    ),
     _rule("protocol.after-conclude", "the association has been concluded", "R-9.2.2.4-1", "B-ASSOCIATION"),
-    _rule("negotiation.service", "{service} is answered positively, but the {side} did not list it in servicesSupported", "R-7.5.2.4-2", "R-7.5.1.4-5", "B-NEGOTIATION"),
-    _rule("negotiation.additional", "{service} is answered positively, but the {side} did not list it in additionalSupported", "R-7.5.2.4-1", "R-7.5.2.4-2", "R-7.5.3-3"),
-    _rule("negotiation.rejected", "{service} is rejected as unrecognized, but the {side} listed it as supported", "R-7.5.2.4-2", "R-7.5.1.4-4"),
-    _rule("negotiation.version", "the negotiated version number {negotiated} is not between 1 and the proposed {proposed}", "R-7.5.2.1-1"),
-    _rule("negotiation.outstanding", "{negotiated} outstanding requests are negotiated where {proposed} were proposed", "R-7.3.4-3", "B-NEGOTIATION"),
-    _rule("select.controlled-alone", "a list of controlled program invocations without a controlling one", "R-7.4.4.3-2", "R-7.4.4.1.1.2-1"),
-    _rule("program.never-shown", "{service} answered result(+), but {pi} is not predefined, and since the robot was ROBOT-IDLE nothing has created or shown it",
-          "R-5.3.1.3.2.1-1", "R-7.3.3.9-1", "RP-14", "RP-21"),
+    _rule(
+        "negotiation.service",
+        "{service} is answered positively, but the {side} did not list it in servicesSupported",
+        "R-7.5.2.4-2",
+        "R-7.5.1.4-5",
+        "B-NEGOTIATION",
+    ),
+    _rule(
+        "negotiation.additional",
+        "{service} is answered positively, but the {side} did not list it in additionalSupported",
+        "R-7.5.2.4-1",
+        "R-7.5.2.4-2",
+        "R-7.5.3-3",
+    ),
+    _rule(
+        "negotiation.rejected",
+        "{service} is rejected as unrecognized, but the {side} listed it as supported",
+        "R-7.5.2.4-2",
+        "R-7.5.1.4-4",
+    ),
+    _rule(
+        "negotiation.version",
+        "the negotiated version number {negotiated} is not between 1 and the proposed {proposed}",
+        "R-7.5.2.1-1",
+    ),
+    _rule(
+        "negotiation.outstanding",
+        "{negotiated} outstanding requests are negotiated where {proposed} were proposed",
+        "R-7.3.4-3",
+        "B-NEGOTIATION",
+    ),
+    _rule(
+        "select.controlled-alone",
+        "a list of controlled program invocations without a controlling one",
+        "R-7.4.4.3-2",
+        "R-7.4.4.1.1.2-1",
+    ),
+    _rule(
+        "program.never-shown",
+        "{service} answered result(+), but {pi} is not predefined, "
+        "and since the robot was ROBOT-IDLE nothing has created or shown it",
+        "R-5.3.1.3.2.1-1",
+        "R-7.3.3.9-1",
+        "RP-14",
+        "RP-21",
+    ),
     _rule("variable.type", "{variable} is {kind}, not {wanted}", "R-8.1-1"),
     _rule("variable.value", "{variable} is {value}, which is not among {wanted}", "R-8.1-1"),
-    _rule("event.arm-running", "event condition R_ARM is notified, but the action result says that R_ARM is RUNNING", "R-8.7.4-1", "R-8.8.2-1"),
+    _rule(
+        "event.arm-running",
+        "event condition R_ARM is notified, but the action result says that R_ARM is RUNNING",
+        "R-8.7.4-1",
+        "R-8.8.2-1",
+    ),
     _rule("event.unfounded", "{condition} is notified, but its cause cannot have occurred", "R-8.7.1-1"),
-)  # fmt: skip
+)
 
 RULES: Mapping[str, Rule] = {rule.id: rule for rule in _LISTED}

@@ -1,4 +1,7 @@
-"""The standardized named variables of clause 8.5: types, ranges, and what they show of the state. Data, and one walk over it."""
+"""The standardized named variables of clause 8.5: types, ranges, and what they show of the state.
+
+They are data, with one walk over it.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +16,7 @@ from mmsverify.model.rows import Clause
 
 @dataclass(frozen=True, slots=True)
 class Variable:
-    """A standardized variable: the kind of its Data, its range, whether it is an array with one element a joint."""
+    """A standardized variable: the kind of its Data, its range, whether it is an array by joints."""
 
     clause: str
     kind: str
@@ -54,7 +57,10 @@ class VariableBreach:
 
 
 def judge(name: str, data: tuple[str, Any]) -> Iterator[VariableBreach]:
-    """The breaches of one value that was read or reported; ``name`` has its domain before it where it belongs to one."""
+    """The breaches of one value that was read or reported.
+
+    ``name`` has its domain before it where it belongs to one.
+    """
     variable = _standard(name)
     if variable is None:
         return

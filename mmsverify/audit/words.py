@@ -1,10 +1,15 @@
-"""The words of the model for the numbers of the protocol: enumerations by their index, standardized names, services."""
+"""The words of the model for the numbers of the protocol: enumerations by index, names, services."""
 
 from __future__ import annotations
 
 ROBOT_STATE = (
-    "ROBOT-IDLE", "ROBOT-LOADED", "ROBOT-READY", "ROBOT-EXECUTING", "ROBOT-MOTION-PAUSED", "MANUAL-INTERVENTION-REQUIRED",
-)  # fmt: skip
+    "ROBOT-IDLE",
+    "ROBOT-LOADED",
+    "ROBOT-READY",
+    "ROBOT-EXECUTING",
+    "ROBOT-MOTION-PAUSED",
+    "MANUAL-INTERVENTION-REQUIRED",
+)
 STATE = (
     "NON-EXISTENT",
     "UNRUNNABLE",
@@ -31,12 +36,25 @@ SEMAPHORE = "R_CTRL"
 
 # Services as a reader of the standard calls them.
 TITLES = {
-    "createProgramInvocation": "CreateProgramInvocation", "deleteProgramInvocation": "DeleteProgramInvocation", "start": "Start",
-    "stop": "Stop", "resume": "Resume", "reset": "Reset", "kill": "Kill", "select": "Select", "vMDStop": "VMD Stop",
-    "vMDReset": "VMD Reset", "alterPI": "AlterProgramInvocationAttributes", "takeControl": "TakeControl",
-    "relinquishControl": "RelinquishControl", "status": "Status", "unsolicitedStatus": "UnsolicitedStatus",
-    "getProgramInvocationAttributes": "GetProgramInvocationAttributes", "read": "Read", "initiate": "Initiate",
-}  # fmt: skip
+    "createProgramInvocation": "CreateProgramInvocation",
+    "deleteProgramInvocation": "DeleteProgramInvocation",
+    "start": "Start",
+    "stop": "Stop",
+    "resume": "Resume",
+    "reset": "Reset",
+    "kill": "Kill",
+    "select": "Select",
+    "vMDStop": "VMD Stop",
+    "vMDReset": "VMD Reset",
+    "alterPI": "AlterProgramInvocationAttributes",
+    "takeControl": "TakeControl",
+    "relinquishControl": "RelinquishControl",
+    "status": "Status",
+    "unsolicitedStatus": "UnsolicitedStatus",
+    "getProgramInvocationAttributes": "GetProgramInvocationAttributes",
+    "read": "Read",
+    "initiate": "Initiate",
+}
 
 
 def title(service: str) -> str:
