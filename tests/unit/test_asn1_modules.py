@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from typing import Any
 
-import annex_a
 import asn1tools
 import pytest
 
@@ -13,6 +12,7 @@ from mmsverify.formats.codec import Choice
 from mmsverify.formats.mms import decode, encode
 from mmsverify.formats.schema import ALSO_READ, Schema, SchemaError
 from mmsverify.resources import asn1_dir
+from mmsverify.samples import annex_a
 
 PATHS = sorted(asn1_dir().glob("*.asn"))
 TEXTS = {path.name: path.read_text(encoding="utf-8") for path in PATHS}

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import annex_a
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -15,6 +14,7 @@ from mmsverify.formats.codec import Choice
 from mmsverify.formats.mms import Pdu, decode, encode
 from mmsverify.formats.schema import Schema
 from mmsverify.resources import asn1_dir
+from mmsverify.samples import annex_a
 
 SCHEMA = Schema.of_folder(asn1_dir())
 ROOT = SCHEMA.type("MMSpdu")

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
-import annex_a
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mmsverify.errors import DecodeError
 from mmsverify.formats.mms import EncodeError, Pdu, decode, encode
+from mmsverify.samples import annex_a
 
 START = "A01B020105BF28058003504931BF4F0DBF280A3008800135A103810103"
 SEEDS = [encode(pdu) for _, pdu in annex_a.conversation()] + [bytes.fromhex(START)]
