@@ -1,8 +1,8 @@
 """A proof as files that any SMT solver can check again.
 
-    from mmsverify.checking.certificates import write_certificates
+from mmsverify.checking.certificates import write_certificates
 
-    write_certificates("mms-robot", Path("proof"))   # then: for f in proof/*.smt2; z3 $f -> unsat
+write_certificates("mms-robot", Path("proof"))   # then: for f in proof/*.smt2; z3 $f -> unsat
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from mmsverify.symbolic.certificate import certificates
 
 
 def write_certificates(model: str, directory: Path, *, variant: str | None = None) -> list[Path]:
-    """Prove what can be proved of the model; write a script for the start and each row. All must be ``unsat``.
+    """Prove what can be proved of the model; write a script for the start and each row: all are ``unsat``.
 
     The scripts name in their first line what they are about. Together they are the proof of every claim that
     ``check`` reports as proved by induction.

@@ -22,7 +22,8 @@ SERVICES = {
     "start": "start",
     "stop": "stop", "resume": "resume", "reset": "reset", "select": "select", "vmd_stop": "vMDStop",
     "vmd_reset": "vMDReset", "take_control": "takeControl", "relinquish_control": "relinquishControl",
-    "alter": "alterPI",
+    "alter": "alterPI", "start_fails": "start", "stop_fails": "stop", "resume_fails": "resume",
+    "reset_fails": "reset",
 }  # fmt: skip
 INDICATIONS = {
     "start_indicated": "start", "stop_indicated": "stop", "resume_indicated": "resume",

@@ -70,5 +70,3 @@ def reads_as(script: str) -> str:
     solver = z3.Solver()
     solver.from_string(script)
     return str(solver.check())
-
-

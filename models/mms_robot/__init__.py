@@ -14,6 +14,7 @@ from .properties import Properties
 from .properties_repaired import PropertiesRepaired
 from .scenario import scenario
 from .selection import Selection, SelectionRepaired
+from .services import Services
 from .vmd import Vmd, VmdRepaired
 from .worlds import worlds
 
@@ -22,14 +23,14 @@ VIEWS = {"robot state": "robot_state", "program invocation": "state"}
 
 
 class AsWritten(
-    Programs, Selection, Execution, Vmd, Associations, Observations, Properties, Figure8,
+    Programs, Selection, Execution, Vmd, Associations, Observations, Properties, Services, Figure8,
     name="mms-robot", variant="as-written", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
 ):  # fmt: skip
     """The text as it stands, faults included."""
 
 
 class Repaired(
-    ProgramsRepaired, SelectionRepaired, ExecutionRepaired, VmdRepaired, AssociationsRepaired, Observations, PropertiesRepaired, Figure8Repaired,
+    ProgramsRepaired, SelectionRepaired, ExecutionRepaired, VmdRepaired, AssociationsRepaired, Observations, PropertiesRepaired, Services, Figure8Repaired,
     name="mms-robot", variant="repaired", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
 ):  # fmt: skip
     """The reading that keeps its own rules."""

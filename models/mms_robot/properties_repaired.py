@@ -1,12 +1,16 @@
 """The claims that the repaired reading states otherwise, and the invariants that it adds so that the others follow."""
 
 from mmsverify.model import (
+    PLUS,
     Always,
     Derived,
     Initially,
+    Step,
+    answered,
     any_of,
     for_all,
     repaired,
+    service_is,
 )  # fmt: skip
 
 from .properties import Properties
@@ -50,5 +54,9 @@ class PropertiesRepaired(Properties, VocabularyRepaired):
     ready_exclusive = Always("R-6.3.4.4-1", ~(ready_predicate() & any_of(idle_predicate(), loaded_predicate(), paused_predicate())),
                              repairs=repaired("RP-12", "R-6.3.4.4-1", because="stated for the mapping"))  # fmt: skip
 
+    intervention_refuses = Step(
+        "R-5.3.1.3.3.13-2", (intervention() & service_is("start", "resume", "select", "vMDReset")) >> ~answered(PLUS), "RP-09",
+        says="in MANUAL-INTERVENTION-REQUIRED nothing is started, resumed, selected or reset",
+        repairs=repaired("RP-09", "R-5.3.1.3.3.13-2", because="stated for the services that would lead out of it"))  # fmt: skip
     motion_needs_selected = Always("R-6.3.4.5-2", motion() >> for_all(a)(selected[a] >> started[a]), "RP-07",
                                    repairs=repaired("RP-07", "R-6.3.4.5-2", because="no motion of a task program that has not been started"))  # fmt: skip

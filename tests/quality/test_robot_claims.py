@@ -1,0 +1,112 @@
+"""What the robot model claims of itself: repaired keeps all of it, as written breaks what is known."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from robot import VARIANTS, first_world, look, robot
+
+from mmsverify.checking import check_models
+from mmsverify.checking.certificates import write_certificates
+from mmsverify.concrete.machine import speaks_of_steps
+from mmsverify.model import Claim
+from mmsverify.model import expr as ex
+from mmsverify.model.expr import Expr
+from mmsverify.results import ModelCheck
+from mmsverify.symbolic.certificate import reads_as
+
+# Claims that the text breaks, with the length of the shortest counterexample that is found.
+BROKEN = {
+    "executing-enables-motion": 4,
+    "executing-runs": 5,
+    "figure-8": 3,
+    "holder-is-associated": 2,
+    "idle-arm-uncontrolled": 3,
+    "idle-has-no-controlling": 2,
+    "idle-has-none-selected": 3,
+    "intervention-left-by-operator": 2,
+    "listed-are-controlled": 5,
+    "lists-follow-references": 5,
+    "loaded-arm-uncontrolled": 4,
+    "loaded-has-controlling": 4,
+    "one-holder": 3,
+    "paused-runs": 6,
+    "predicates-exclusive": 1,
+    "predicates-exhaustive": 2,
+    "ready-controls-arm": 2,
+    "ready-has-idle-selected": 3,
+    "references-are-controlling": 4,
+    "references-follow-lists": 6,
+    "refusal-keeps-states": 7,
+    "remote-cannot-in-local-control": 2,
+    "selected-can-run": 3,
+    "selected-is-controlling": 4,
+}
+
+
+def check(variant: str) -> ModelCheck:
+    (found,) = check_models(["mms-robot"], variant=variant)
+    return found
+
+
+@pytest.mark.slow
+def test_repaired_keeps_every_claim_for_any_number_and_reaches_what_it_says() -> None:
+    for verdict in check("repaired").verdicts:
+        assert verdict.result == "proved", verdict
+        if verdict.kind == "sometimes":
+            assert verdict.witness, verdict.name
+        else:
+            assert (verdict.method, verdict.scope) == ("induction", "any number of PI, Client, Request")
+
+
+@pytest.mark.slow
+def test_as_written_breaks_the_known_claims_and_the_others_are_proved() -> None:
+    verdicts = check("as-written").verdicts
+    broken = {v.name: len(v.counterexample or ()) - 1 for v in verdicts if v.result == "violated"}
+    assert broken == BROKEN  # every counterexample was replayed by the judge before it was reported
+    assert [v.name for v in verdicts if v.result == "unknown"] == []
+
+
+def implied_of(claim: Claim) -> Expr:
+    """The condition under which an invariant demands something, for some elements; true where it has none."""
+    body: Expr = claim.formula
+    bound: tuple[ex.Ref, ...] = ()
+    if isinstance(body, ex.Quantified) and body.universal:
+        bound, body = body.bound, body.body
+    conditions = body.parts[:-1] if isinstance(body, ex.Or) else ()
+    return ex.quantified(False, bound, ex.conjunction(*map(ex.negation, conditions)))
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_no_claim_about_states_is_vacuous(variant: str) -> None:
+    model = robot(variant)
+    demanding = {c.name: implied_of(c) for c in model.always}
+    asked = [
+        Claim(name, "sometimes", model.always[0].clause, formula)
+        for name, formula in demanding.items()
+        if formula != ex.TRUE
+    ]
+    found = look(model, asked, first_world().scope(model), states=60_000)
+    assert sorted({c.name for c in asked} - found.witnesses.keys()) == VACUOUS[variant]
+
+
+# The first world has no calibration program. As written, c2) of Start ends before f): no motion is enabled.
+VACUOUS = {
+    "as-written": ["calibration_is_normal", "motion_has_running_arm", "motion_only_executing"],
+    "repaired": ["calibration_is_normal"],
+}
+
+
+@pytest.mark.parametrize("variant", VARIANTS)
+def test_every_robot_state_and_every_arrow_of_figure_8_is_asked_for(variant: str) -> None:
+    sometimes = [claim for claim in robot(variant).claims if claim.kind == "sometimes"]
+    assert sum(not speaks_of_steps(claim) for claim in sometimes) >= 6
+    assert sum(speaks_of_steps(claim) for claim in sometimes) >= 12
+
+
+@pytest.mark.slow
+def test_the_proof_of_repaired_stands_when_it_is_read_anew_from_its_files(tmp_path: Path) -> None:
+    paths = write_certificates("mms-robot", tmp_path)
+    assert len(paths) > 100
+    assert [path.name for path in paths if reads_as(path.read_text(encoding="ascii")) != "unsat"] == []
