@@ -20,7 +20,7 @@ LARGEST_TABLE = 128
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
-    """How far a row got in a state: the conjunct that refused, how many held before it, what else it rests on."""
+    """How far a row got in a state: the conjunct that refused, how many held before, and the invariant."""
 
     row: Row
     state: Partial
@@ -32,7 +32,7 @@ class Refusal:
 def satisfy(
     row: Row, state: Partial, env: Env, constraints: Constraints
 ) -> tuple[list[Partial], list[Refusal]]:
-    """The states in which the row's guard holds; where none is left, the refusals at the furthest conjunct reached."""
+    """The states in which the row's guard holds; if none is left, the refusals at the furthest conjunct."""
     states, refusals = [state], []
     for passed, (conjunct, assume) in enumerate(zip(row.guard, compiled(row).guard, strict=True)):
         left: list[Partial] = []
@@ -63,7 +63,7 @@ def settle(before: Partial, after: Partial, constraints: Constraints) -> Partial
 
 
 def take(row: Row, state: Partial, env: Env, constraints: Constraints) -> tuple[list[Partial], list[Refusal]]:
-    """The states after the row, without what was found out about its free choices; or why it cannot be taken."""
+    """The states after the row, without what was found out about its free choices; or why there are none."""
     ready, refusals = satisfy(row, state, env, constraints)
     done: list[Partial] = []
     for before in ready:
@@ -84,7 +84,10 @@ def _plain(state: Partial) -> Partial:
 
 
 def update(row: Row, state: Partial, env: Env) -> Partial:
-    """The state with the row's assignments made in order, all reading the state before; unsure ones keep the old value possible."""
+    """The state with the row's assignments made in order, all reading the state before.
+
+    One that may or may not be made keeps the old value possible.
+    """
     cells = _written(row, state, env)
     if not cells:
         return state
@@ -111,7 +114,10 @@ def _written(row: Row, state: Partial, env: Env) -> dict[Key, Known]:
 
 
 def _still_true(fact: Fact, row: Row, state: Partial, env: Env, written: Mapping[Key, Known]) -> bool:
-    """Whether a fact about unseen names survives the row: it does not read what is written, or the row keeps it in any state."""
+    """Whether a fact about unseen names survives the row.
+
+    It does if it reads nothing that is written, or if the row keeps it in any state.
+    """
     if not touches(fact.cells, written):
         return True
     key = (id(fact), row.id, frozenset(env.items()))
@@ -122,13 +128,17 @@ def _still_true(fact: Fact, row: Row, state: Partial, env: Env, written: Mapping
 
 def _survives(fact: Fact, row: Row, blank: Partial, env: Env) -> bool:
     """Whether the row keeps the fact for all values of its cells, whatever the rest of the state."""
-    keys = [(variable, names) for variable, names in sorted(fact.cells, key=str) if None not in names]
-    ranges = [_singles(blank.get(key)) for key in keys]  # type: ignore[arg-type]
+    keys: list[Key] = [
+        (variable, tuple(name for name in names if name is not None))
+        for variable, names in sorted(fact.cells, key=str)
+        if None not in names
+    ]
+    ranges = [_singles(blank.get(key)) for key in keys]
     if len(keys) < len(fact.cells) or prod(map(len, ranges)) not in range(1, LARGEST_TABLE):
         return False
     return all(
         _kept(fact, row, blank, env, dict(zip(keys, values, strict=True))) for values in product(*ranges)
-    )  # type: ignore[arg-type]
+    )
 
 
 def _kept(fact: Fact, row: Row, blank: Partial, env: Env, values: Mapping[Key, Known]) -> bool:

@@ -1,8 +1,8 @@
-"""The belief about one device: all states that some run of the model may have reached, given the events so far.
+"""The belief about one device: the states that some run of the model may have reached by the events so far.
 
-After each event the belief is the set of partial states that agree with it; it is empty only if no run of the model
-shows these events, and only then a violation is told. Then it starts again from every state that agrees with what
-was observed: with the effects of the observed answer, or without them.
+After each event the belief is the set of partial states that agree with it; it is empty only if no run of the
+model shows these events, and only then a violation is told. Then it starts again from every state that agrees
+with what was observed: with the effects of the observed answer, or without them.
 """
 
 from __future__ import annotations
@@ -11,11 +11,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from mmsverify.concrete.belief.act import Refusal, settle, take, update
+from mmsverify.concrete.belief.act import Refusal, take
 from mmsverify.concrete.belief.blame import Blame, before, blame
-from mmsverify.concrete.belief.constraints import Conflict, Constraints
+from mmsverify.concrete.belief.constraints import Constraints
 from mmsverify.concrete.belief.internal import Goal, Outstanding, Unseen, decided, undecided
-from mmsverify.concrete.belief.partial import UNSEEN, Key, Partial, World, distinct
+from mmsverify.concrete.belief.narrow import narrowing
+from mmsverify.concrete.belief.partial import Key, Partial, World, distinct, widened, written
+from mmsverify.concrete.belief.resync import forced, learned_anew, sight_lost
 from mmsverify.concrete.belief.truth import ABSENT, Env, value
 from mmsverify.concrete.belief.values import NO, YES, exactly, plain
 from mmsverify.model.expr import Ref
@@ -28,7 +30,10 @@ LARGEST_BELIEF = 300
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What became of an event: a violation or none, the cells that it changed, and the clauses that made it change them."""
+    """What became of an event: a violation or none.
+
+    ``written`` are the cells that it changed, ``clauses`` those that made it change them, by variable.
+    """
 
     blame: Blame | None = None
     written: frozenset[Key] = frozenset()
@@ -37,7 +42,7 @@ class Outcome:
 
 @dataclass(slots=True)
 class _Watch:
-    """An observation that has been asked for: the beliefs since then, for it may show any of these instants."""
+    """An observation that was asked for: the beliefs since then, for it may show any of these instants."""
 
     earlier: list[list[Partial]] = field(default_factory=list)
 
@@ -45,9 +50,9 @@ class _Watch:
 class Belief:
     """What is known about one device under one model.
 
-    ``facts`` are what a profile fixes, by variable and names; ``invariants`` are claims that have been proved of
-    the model: they tell what else follows from what is seen. A claim that does not hold would make conforming
-    recordings impossible.
+    ``facts`` are what a profile fixes, by variable and names; ``invariants`` are claims that have been proved
+    of the model: they tell what else follows from what is seen. A claim that does not hold would make
+    conforming recordings impossible.
     """
 
     def __init__(
@@ -77,9 +82,7 @@ class Belief:
                 assert isinstance(sort, ElementSort)
                 self.see(sort, name)
             self.states = [state.put((variable, args), exactly(given)) for state in self.states]
-        self.states = [
-            s for s in map(self.constraints.everywhere, self.states) if not isinstance(s, Conflict)
-        ]
+        self.states = self.constraints.consistent(self.states)
 
     def see(self, sort: ElementSort, name: str) -> None:
         """A name has been seen in the recording."""
@@ -98,7 +101,8 @@ class Belief:
     def environment(self, phase: str, service: str, bindings: Mapping[str, Any]) -> dict[str, Any]:
         """The values of an event's parameters as the readers take them; its names are seen.
 
-        Members of enumerations may be given as the words that they print. Parameters that no row knows are left out.
+        Members of enumerations may be given as the words that they print. Parameters that no row knows are
+        left out.
         """
         env: dict[str, Any] = {}
         for row in self._rows.get((phase, service), ()):
@@ -130,7 +134,10 @@ class Belief:
     # Events.
 
     def indicate(self, slot: str, service: str, bindings: Mapping[str, Any]) -> None:
-        """A request arrives: the transient state is entered, where the model has one, and it is outstanding from now on."""
+        """A request arrives; it is outstanding from now on.
+
+        Where the model has a transient state of the service, it is entered.
+        """
         env = self.environment("indication", service, bindings)
         env |= self.environment("response", service, bindings)
         rows = self._rows.get(("indication", service), ())
@@ -142,8 +149,6 @@ class Belief:
 
     def _indicated(self, rows: Sequence[Row], state: Partial, env: Env) -> list[Partial]:
         """The state after the row that applies, or unchanged where none does."""
-        from mmsverify.concrete.belief.narrow import narrowing
-
         result = [after for row in rows for after in take(row, state, env, self.constraints)[0]]
         rest = [state]
         for row in rows:
@@ -155,7 +160,7 @@ class Belief:
     def respond(
         self, slot: str, service: str, bindings: Mapping[str, Any], answer: str, *, local: bool = False
     ) -> Outcome:
-        """The responder answers. ``local`` says that a result(-) names a local reason, which needs no explanation."""
+        """The responder answers; ``local``: a result(-) names a local reason, which needs no explanation."""
         env = self.environment("response", service, bindings)
         self._outstanding.pop(slot, None)
         self._remember()
@@ -167,12 +172,12 @@ class Belief:
             made = {assign.variable: assign.clauses for row in rows for assign in row.assigns}
             return replace(self._become(after, earlier), clauses=made)
         self.states = [undecided(state, slot) for state in earlier]
-        forced = self._forced(rows, self.states, env)
+        effects = forced(rows, self.states, env, self.constraints)
         if local and answer == MINUS:
-            return self._become(forced or self.states, earlier)
+            return self._become(effects or self.states, earlier)
         if answer == MINUS:
-            return self._refused(service, ready, env, [*forced, *self.states])
-        return self._violated(rows, ready, refusals, env, (MINUS,), [*forced, *self.states])
+            return self._refused(service, ready, env, [*effects, *self.states])
+        return self._violated(rows, ready, refusals, env, expected=(MINUS,), then=[*effects, *self.states])
 
     def _refused(self, service: str, ready: Sequence[Partial], env: Env, then: list[Partial]) -> Outcome:
         """A result(-) for which nothing stands: a warning, for the text does not list every reason."""
@@ -188,7 +193,7 @@ class Belief:
         )
         earlier = self.states
         self._become(then)
-        return Outcome(found, _changed(earlier, self.states))
+        return Outcome(found, written(earlier, self.states))
 
     def _answered(
         self, rows: Sequence[Row], ready: Sequence[Partial], env: Env, slot: str, answer: str
@@ -222,9 +227,11 @@ class Belief:
             if watch is not None and any(self._agreed(row, states, env) for states in watch.earlier):
                 continue  # it may show an earlier instant, and then says nothing about this one
             if not agreeing:
-                return self._violated([row], ready, refusals, env, (), self._after_contradiction(row, env))
+                # Either it lies, and the belief stands; or it is true, and what it shows is learned anew.
+                then = [*self.states, *learned_anew(row, self.states, env, self.constraints)]
+                return self._violated([row], ready, refusals, env, then=then)
             self._become(agreeing)
-        return Outcome(written=_changed(earlier, self.states))
+        return Outcome(written=written(earlier, self.states))
 
     def _agreed(self, row: Row, states: list[Partial], env: Env) -> bool:
         return bool(
@@ -242,13 +249,7 @@ class Belief:
 
     def lose_sight(self) -> None:
         """Messages may be missing: nothing that can change is known any more."""
-        rigid = {name for name, s in self.model.signatures.items() if s.rigid}
-        self.states = distinct(
-            Partial(s.world, {k: v for k, v in s.cells.items() if k[0] in rigid}) for s in self.states
-        )
-        self.states = [
-            s for s in map(self.constraints.everywhere, self.states) if not isinstance(s, Conflict)
-        ]
+        self.states = sight_lost(self.states, self.constraints)
 
     def drop(self, slot: str) -> None:
         """A request will not be answered any more; whether it was performed is not known."""
@@ -277,45 +278,9 @@ class Belief:
         kept = distinct(states)
         if len(kept) > LARGEST_BELIEF:
             self.widened = True
-            kept = _widened(kept)
+            kept = widened(kept, LARGEST_BELIEF // 2)
         self.states = kept
-        return Outcome(written=_changed(earlier, kept) if earlier is not None else frozenset())
-
-    def _forced(self, rows: Sequence[Row], states: Sequence[Partial], env: Env) -> list[Partial]:
-        """The effects of the observed answer, its guards ignored."""
-        forced = []
-        for row in rows[:1] if rows and rows[0].answer == MINUS else rows:
-            for state in states:
-                after = update(row, state, env)
-                found = settle(state, after, self.constraints)
-                forced.append(self._without_names(after, env) if isinstance(found, Conflict) else found)
-        return forced
-
-    def _without_names(self, state: Partial, env: Env) -> Partial:
-        """The state with nothing known of the names in the event, and of what belongs to no name."""
-        names = {
-            n
-            for given in env.values()
-            for n in ([given] if isinstance(given, str) else given if isinstance(given, frozenset) else ())
-        }
-        rigid = {name for name, s in self.model.signatures.items() if s.rigid}
-        gone = [
-            k
-            for k in state.cells
-            if k[0] not in rigid and (not k[1] or names.intersection(k[1]) or k[0] == UNSEEN)
-        ]
-        found = self.constraints.everywhere(state.without(gone))
-        return state.forget(frozenset(self.world.full) - rigid) if isinstance(found, Conflict) else found
-
-    def _after_contradiction(self, row: Row, env: Env) -> list[Partial]:
-        """Either the message lies, and the belief stands; or it tells the truth, and what it shows must be learned anew."""
-        rigid = {name for name, s in self.model.signatures.items() if s.rigid}
-        learned: list[Partial] = []
-        for state in self.states[:8]:
-            blank = self.constraints.everywhere(state.forget(row.reads - rigid))
-            if not isinstance(blank, Conflict):
-                learned += take(row, blank, env, self.constraints)[0]
-        return [*self.states, *learned]
+        return Outcome(written=written(earlier, kept) if earlier is not None else frozenset())
 
     def _violated(
         self,
@@ -323,13 +288,15 @@ class Belief:
         ready: Sequence[Partial],
         refusals: Sequence[Refusal],
         env: Env,
-        expected: tuple[str, ...],
+        *,
+        expected: tuple[str, ...] = (),
         then: list[Partial],
     ) -> Outcome:
         earlier = self.states
-        found = blame(self.model, ready or earlier, rows, refusals, env, expected) if rows else None
+        near = ready or earlier
+        found = blame(self.model, near, rows, refusals, env, expected=expected) if rows else None
         self._become(then or earlier)
-        return Outcome(found, _changed(earlier, self.states))
+        return Outcome(found, written(earlier, self.states))
 
 
 def _given(given: Any, sort: Sort | None = None) -> Any:
@@ -342,19 +309,3 @@ def _given(given: Any, sort: Sort | None = None) -> Any:
     if isinstance(given, int | Enumeration):
         return exactly(given)
     return given if isinstance(given, str) else frozenset(given)
-
-
-def _widened(states: list[Partial]) -> list[Partial]:
-    """Neighbours joined until few enough are left: more is allowed than before, never less."""
-    while len(states) > LARGEST_BELIEF // 2:
-        states = distinct(
-            a if b is a else a.joined(b)
-            for a, b in zip(states[::2], [*states[1::2], states[-1]], strict=False)
-        )
-    return states
-
-
-def _changed(before: Sequence[Partial], after: Sequence[Partial]) -> frozenset[Key]:
-    old = before[0].cells if before else {}
-    new = after[0].cells if after else {}
-    return frozenset(k for k in {*old, *new} if old.get(k) != new.get(k) and not k[0].startswith("$"))

@@ -1,4 +1,7 @@
-"""Why an event cannot be: the conjunct that refused, in the state that comes closest, and what was known there."""
+"""Why an event cannot be: the conjunct that refused, in the state that comes closest, and what was known.
+
+Nothing is decided here; the belief calls for an explanation once it is sure that there is no way.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +24,8 @@ from mmsverify.model.rows import Clause, Conjunct, Row
 class Blame:
     """One violation as data: the rule, what it rests on, a sentence about it, and the state before.
 
-    ``reads`` are the cells that the refusing condition reads; the events that last wrote them are the related ones.
+    ``reads`` are the cells that the refusing condition reads; the events that last wrote them are the related
+    ones.
     """
 
     rule: str
@@ -39,6 +43,7 @@ def blame(
     rows: Sequence[Row],
     refusals: Sequence[Refusal],
     env: Env,
+    *,
     expected: tuple[str, ...],
 ) -> Blame:
     """The mildest and most plausible explanation: the state and row with the fewest conditions broken."""
@@ -71,7 +76,7 @@ def _weight(breach: _Breach) -> tuple[bool, int, int]:
 
 
 def _breach(row: Row, state: Partial, env: Env, refusals: Sequence[Refusal]) -> _Breach:
-    """The conditions of the row that are certainly broken in the state, or else the one at which it got stuck."""
+    """The conditions of the row that are certainly broken in the state, or the one where it got stuck."""
     broken = [(i, c) for i, c in enumerate(row.guard) if truth(c.condition)(state, env) == NO]
     stuck = [r for r in refusals if r.row is row]
     invariant = next((r.invariant for r in stuck if r.invariant.ids and not broken), Clause(()))
@@ -89,7 +94,7 @@ def _whole(row: Row) -> Conjunct:
 
 
 def _sentence(says: str, states: Sequence[Partial], env: Env) -> str:
-    """``says`` with its slots filled: parameters of the event, and (by variable name) what the states hold."""
+    """``says`` with its slots filled: parameters of the event and, by variable name, what the states hold."""
     words = {name: _word(given) for name, given in env.items()}
     for variable in states[0].world.full if states else ():
         words.setdefault(variable, _word(_joined(states, (variable, ()))))
@@ -129,7 +134,7 @@ def _joined(states: Sequence[Partial], key: Key) -> Known:
 
 
 def before(model: ModelData, states: Sequence[Partial], env: Env) -> dict[str, Any]:
-    """The state before the event, by attribute: single cells and definitions, and the cells of the names in the event.
+    """The state before the event, by attribute: single cells, definitions, cells of the names in the event.
 
     Relations that do not hold are left out, and what is not known.
     """

@@ -9,7 +9,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from mmsverify.concrete.belief.narrow import Narrowing, narrowing
+from mmsverify.concrete.belief.comparison import Narrowing
+from mmsverify.concrete.belief.narrow import narrowing
 from mmsverify.concrete.belief.patterns import Pattern, patterns
 from mmsverify.concrete.belief.truth import Env, Truth, Value, truth, value
 from mmsverify.model.declare import Assign
@@ -31,7 +32,7 @@ class CompiledAssign:
 
 @dataclass(frozen=True, slots=True)
 class CompiledRow:
-    """A row's guard as truth tests and as narrowings, its updates, and the cells as they stand in its expressions."""
+    """A row's guard as truth tests and as narrowings, its updates, and the cells in its expressions."""
 
     row: Row
     tests: tuple[Truth, ...]

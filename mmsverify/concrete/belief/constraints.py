@@ -1,7 +1,8 @@
 """The proved invariants as constraints on partial states: what one known cell says of others.
 
-After a cell has changed, only those instances of an invariant are looked at that mention the cell: its arguments bind the quantified
-variables, the remaining ones range over the names seen (the idea of watched literals). Nothing is split here.
+After a cell has changed, only those instances of an invariant are looked at that mention the cell: its
+arguments bind the quantified variables, the remaining ones range over the names seen (the idea of watched
+literals). Nothing is split here.
 """
 
 from __future__ import annotations
@@ -10,8 +11,10 @@ from collections import deque
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import product
+from typing import TypeGuard
 
-from mmsverify.concrete.belief.narrow import Narrowing, narrowing
+from mmsverify.concrete.belief.comparison import Narrowing
+from mmsverify.concrete.belief.narrow import narrowing
 from mmsverify.concrete.belief.partial import OTHER, Key, Partial, World
 from mmsverify.concrete.belief.truth import Truth, truth
 from mmsverify.concrete.belief.values import NO, YES
@@ -20,7 +23,10 @@ from mmsverify.model.expr import Cell, Expr, Quantified, Ref
 from mmsverify.model.rows import Clause
 
 LARGEST = 60
-"""Nodes of a formula that is worth asking. Larger ones spell out definitions of the whole state: costly, and they narrow little."""
+"""Nodes of a formula that is worth asking.
+
+Larger ones spell out definitions of the whole state: they are costly and narrow little.
+"""
 
 _Trigger = tuple[int, tuple[str, ...]]
 
@@ -54,7 +60,7 @@ class Constraints:
                     self._add(part, clause)
 
     def _add(self, formula: Expr, clause: Clause) -> None:
-        bound, body = (formula.bound, formula.body) if _is_universal(formula) else ((), formula)  # type: ignore[attr-defined]
+        bound, body = (formula.bound, formula.body) if _is_universal(formula) else ((), formula)
         number = len(self._constraints)
         self._constraints.append(_Constraint(bound, truth(body), narrowing(body, True), clause))
         seen = set()
@@ -77,7 +83,11 @@ class Constraints:
                 for s in self.world.model.signatures.values()
                 for names in self.world.combinations(s.sorts)
             },
-        )  # type: ignore[arg-type]
+        )
+
+    def consistent(self, states: Iterable[Partial]) -> list[Partial]:
+        """The states that no invariant excludes, each narrowed by all of them."""
+        return [found for found in map(self.everywhere, states) if not isinstance(found, Conflict)]
 
     def after(self, state: Partial, changed: Iterable[Key]) -> Partial | Conflict:
         """The state narrowed by what the changed cells imply, and what that implies in turn."""
@@ -126,7 +136,7 @@ class Constraints:
 
 
 def _bound(args: tuple[str, ...], names: tuple[str, ...], bound: tuple[Ref, ...]) -> dict[str, str] | None:
-    """The quantified variables that the arguments of a changed cell decide; ``None`` where they contradict."""
+    """The quantified variables that a changed cell's arguments decide; ``None`` where they contradict."""
     quantified = {ref.name for ref in bound}
     env: dict[str, str] = {}
     for arg, name in zip(args, names, strict=True):
@@ -143,7 +153,7 @@ def _differences(before: Partial, after: Partial) -> list[Key]:
     ]
 
 
-def _is_universal(formula: Expr) -> bool:
+def _is_universal(formula: Expr) -> TypeGuard[Quantified]:
     return isinstance(formula, Quantified) and formula.universal
 
 
@@ -152,8 +162,8 @@ def _conjuncts(formula: Expr) -> Iterator[Expr]:
     if isinstance(formula, ex.And):
         for part in formula.parts:
             yield from _conjuncts(part)
-    elif _is_universal(formula) and isinstance(formula.body, ex.And):  # type: ignore[attr-defined]
-        for part in formula.body.parts:  # type: ignore[attr-defined]
-            yield from _conjuncts(ex.quantified(True, formula.bound, part))  # type: ignore[attr-defined]
+    elif _is_universal(formula) and isinstance(formula.body, ex.And):
+        for part in formula.body.parts:
+            yield from _conjuncts(ex.quantified(True, formula.bound, part))
     else:
         yield formula

@@ -1,7 +1,8 @@
-"""What may have happened unseen before an event: internal rows, requests performed early, an operator at the panel.
+"""What may have happened unseen before an event: internal rows, requests performed early, acts at the panel.
 
-Each internal row fires at most once for the same names between two events; those that explain an observed state only are left
-out where an answer is to be explained. While somebody at the panel holds control, what the panel can change is not known.
+Each internal row fires at most once for the same names between two events; those that explain an observed
+state only are left out where an answer is to be explained. While somebody at the panel holds control, what
+the panel can change is not known.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ LARGEST_MEMO = 20000
 
 @dataclass(frozen=True, slots=True)
 class Firing:
-    """An internal row with names and truth values for its parameters; rows fire once for the names in ``tag``.
+    """An internal row with names and truth values for its parameters; it fires once for the names in ``tag``.
 
     ``needs`` are the cells that its guard reads.
     """
@@ -71,9 +72,9 @@ class Outstanding:
 
 
 def decided(state: Partial, slot: str) -> str | None:
-    """The answer that the responder has already decided on for a request, though no message has shown it yet."""
+    """The answer that the responder has already decided on for a request, though no message shows it yet."""
     mark = state.cells.get((DECIDED, (slot,)))
-    return None if mark is None else next(iter(mark))  # type: ignore[arg-type]
+    return str(next(iter(mark))) if isinstance(mark, frozenset) else None
 
 
 def undecided(state: Partial, slot: str) -> Partial:
@@ -163,7 +164,7 @@ class Unseen:
         return useful
 
     def _writable(self, state: Partial, rows: Sequence[Row]) -> frozenset[str]:
-        """The variables that the rows may still change, with what somebody at the panel could do meanwhile."""
+        """The variables that the rows may still change, and somebody at the panel meanwhile."""
         written = frozenset[str]().union(*(row.writes for row in rows))
         if self._panel and ("local_control" in written or state.get(("local_control", ())) == YES):
             written |= self._panel
@@ -198,9 +199,10 @@ class Unseen:
     def _matters(
         self, firing: Firing, state: Partial, after: Partial, firings: Sequence[Firing], goal: Goal
     ) -> bool:
-        """Whether the goal reads what the firing changed, or may take away what it needs, or another firing is made possible.
+        """Whether a firing matters to the goal; one that does not can as well fire after the event.
 
-        One that does not matter can as well fire after the event.
+        It matters if the goal reads what it changed or may take away what it needs, or if it makes another
+        firing possible.
         """
         keys = changed(state, after)
         if not keys:
@@ -226,7 +228,7 @@ class Unseen:
                 )
 
     def _bindings(self, row: Row, state: Partial) -> Iterator[tuple[Tag, dict[str, Any]]]:
-        """Names for the parameters that are elements, both values for Booleans; any other choice stays open."""
+        """Names for parameters that are elements, both values for Booleans; any other choice stays open."""
         ranged: list[tuple[str, tuple[Any, ...]]] = []
         for parameter in row.parameters:
             if isinstance(parameter, SetOf):

@@ -1,8 +1,9 @@
-"""Assuming that a formula holds (or fails): the partial states that remain. None remain only where none is possible.
+"""Assuming that a formula holds (or fails): the partial states that remain; none only where none is possible.
 
-A conjunct narrows cells without a split. A disjunction with one possible part narrows by it; with a few, it splits in
-order ("the first that holds is the i-th"), n parts for n alternatives; with many, or where splits are not wanted, the state is
-kept as it is, which allows too much but never too little. Of unseen names only what holds for each of them is assumed.
+A conjunct narrows cells without a split. A disjunction with one possible part narrows by it; with a few, it
+splits in order ("the first that holds is the i-th"), n parts for n alternatives; with many, or where splits
+are not wanted, the state is kept as it is, which allows too much but never too little. Of unseen names only
+what holds for each of them is assumed.
 """
 
 from __future__ import annotations
@@ -10,15 +11,22 @@ from __future__ import annotations
 from collections.abc import Callable
 from functools import cache
 
+from mmsverify.concrete.belief.comparison import (
+    Narrowing,
+    by_cell,
+    by_order,
+    by_test,
+    by_value,
+    in_turn,
+    is_place,
+)  # fmt: skip
 from mmsverify.concrete.belief.partial import OTHER, Fact, Partial
 from mmsverify.concrete.belief.patterns import at, patterns
-from mmsverify.concrete.belief.truth import Env, Truth, key_of, truth, value
-from mmsverify.concrete.belief.values import EITHER, NO, YES, Known, above, below, meet, single, without
+from mmsverify.concrete.belief.truth import Env, Truth, truth
+from mmsverify.concrete.belief.values import EITHER, NO, YES
 from mmsverify.model import expr as ex
-from mmsverify.model.expr import And, Cell, Eq, Expr, Ite, Less, Not, Or, Quantified, Ref
+from mmsverify.model.expr import And, Cell, Eq, Expr, Ite, Less, Not, Or, Quantified
 from mmsverify.model.sorts import BOOL, ElementSort
-
-Narrowing = Callable[[Partial, Env, bool], list[Partial]]
 
 LARGEST_SPLIT = 6
 
@@ -28,57 +36,22 @@ def narrowing(expr: Expr, want: bool) -> Narrowing:
     """What remains of a state when ``expr`` is assumed to be ``want``; the third argument allows splits."""
     match expr:
         case Cell():
-            return _cell(expr, want)
+            return by_cell(expr, want)
         case Not(body):
             return narrowing(body, not want)
         case And(parts) if want:
-            return _each(tuple(narrowing(part, True) for part in parts))
+            return in_turn(tuple(narrowing(part, True) for part in parts))
         case Or(parts) if not want:
-            return _each(tuple(narrowing(part, False) for part in parts))
+            return in_turn(tuple(narrowing(part, False) for part in parts))
         case And(parts) | Or(parts):
             return _first(tuple((truth(p), narrowing(p, want), narrowing(p, not want)) for p in parts), want)
         case Eq(left, right):
             return _equality(left, right, want)
         case Less(left, right):
-            return _order(left, right, want)
+            return by_order(left, right, want)
         case Quantified(universal):
             return _every(expr, want) if universal == want else _some(expr, want)
-    return _test(expr, want)
-
-
-def _test(expr: Expr, want: bool) -> Narrowing:
-    """Nothing to narrow: the state stays where the formula may have the wanted value."""
-    holds, wanted = truth(expr), YES if want else NO
-
-    def keep(state: Partial, env: Env, _split: bool) -> list[Partial]:
-        return [state] if holds(state, env) & wanted else []
-
-    return keep
-
-
-def _cell(cell: Cell, want: bool) -> Narrowing:
-    key, mask = key_of(cell), YES if want else NO
-
-    def narrow(state: Partial, env: Env, _split: bool) -> list[Partial]:
-        where = key(env)
-        if where is None:
-            return [] if want else [state]
-        left = state.narrowed(where, mask)
-        return [] if left is None else [left]
-
-    return narrow
-
-
-def _each(parts: tuple[Narrowing, ...]) -> Narrowing:
-    def narrow(state: Partial, env: Env, split: bool) -> list[Partial]:
-        states = [state]
-        for part in parts:
-            states = [after for before in states for after in part(before, env, split)]
-            if not states:
-                break
-        return states
-
-    return narrow
+    return by_test(expr, want)
 
 
 def _first(
@@ -120,58 +93,15 @@ def alternatives(
 
 def _equality(left: Expr, right: Expr, want: bool) -> Narrowing:
     if isinstance(left.sort, ElementSort):
-        return _test(Eq(left, right), want)
+        return by_test(Eq(left, right), want)
     if left.sort is BOOL:
         return _equivalence(left, right, want)
     if isinstance(left, Ite):
         return _choice(left, right, want)
     if isinstance(right, Ite):
         return _choice(right, left, want)
-    ways = [_value(a, b, want) for a, b in ((left, right), (right, left)) if _is_place(a)]
-    return _each(tuple(ways)) if ways else _test(Eq(left, right), want)
-
-
-def _is_place(expr: Expr) -> bool:
-    return isinstance(expr, Cell | Ref)
-
-
-def _value(place: Expr, other: Expr, want: bool) -> Narrowing:
-    """Narrow a cell (or a free choice) to the values that the other side may have, or away from its only value."""
-    known, key = value(other), _place_key(place)
-    holds = truth(Eq(place, other))
-    now = value(place)
-
-    def narrow(state: Partial, env: Env, _split: bool) -> list[Partial]:
-        where = key(env)
-        if where is None:
-            return [state] if holds(state, env) & (YES if want else NO) else []
-        theirs = known(state, env)
-        if want:
-            return _restricted(state, where, now(state, env), theirs)
-        if not single(theirs):
-            return [state]
-        left = without(now(state, env), theirs)
-        return [] if left is None else [state.put(where, left)]
-
-    return narrow
-
-
-def _restricted(
-    state: Partial, where: tuple[str, tuple[str, ...]], now: Known, theirs: Known
-) -> list[Partial]:
-    left = meet(now, theirs)
-    if left is None:
-        return []
-    return [state] if left == now else [state.put(where, left)]
-
-
-def _place_key(place: Expr) -> Callable[[Env], tuple[str, tuple[str, ...]] | None]:
-    """The key of a cell; of a parameter that the event does not show, the key of what is found out about it."""
-    if isinstance(place, Cell):
-        return key_of(place)
-    assert isinstance(place, Ref)
-    name, key = place.name, ("$" + place.name, ())
-    return lambda env: None if name in env else key
+    ways = [by_value(a, b, want) for a, b in ((left, right), (right, left)) if is_place(a)]
+    return in_turn(tuple(ways)) if ways else by_test(Eq(left, right), want)
 
 
 def _equivalence(left: Expr, right: Expr, want: bool) -> Narrowing:
@@ -226,47 +156,8 @@ def _choice(choice: Ite, other: Expr, want: bool) -> Narrowing:
     return narrow
 
 
-def _order(left: Expr, right: Expr, want: bool) -> Narrowing:
-    """``left < right`` (or its contrary): narrows either side by the other's bound."""
-    low, high = value(left), value(right)
-    steps: list[Narrowing] = [_test(Less(left, right), want)]
-    if _is_place(left):
-        steps.append(
-            _bounded(left, lambda s, e: high(s, e)[1] if want else high(s, e)[0], below if want else _from)
-        )  # type: ignore[index]
-    if _is_place(right):
-        steps.append(
-            _bounded(right, lambda s, e: low(s, e)[0] if want else low(s, e)[1], above if want else _up_to)
-        )  # type: ignore[index]
-    return _each(tuple(steps))
-
-
-def _from(known: tuple[int | None, int | None], limit: int | None) -> tuple[int | None, int | None] | None:
-    return above(known, None if limit is None else limit - 1)
-
-
-def _up_to(known: tuple[int | None, int | None], limit: int | None) -> tuple[int | None, int | None] | None:
-    return below(known, None if limit is None else limit + 1)
-
-
-def _bounded(
-    place: Expr, limit: Callable[[Partial, Env], int | None], cut: Callable[..., Known | None]
-) -> Narrowing:
-    key, now = _place_key(place), value(place)
-
-    def narrow(state: Partial, env: Env, _split: bool) -> list[Partial]:
-        where = key(env)
-        if where is None:
-            return [state]
-        before = now(state, env)
-        left = cut(before, limit(state, env))
-        return [] if left is None else [state if left == before else state.put(where, left)]
-
-    return narrow
-
-
 def _every(expr: Quantified, want: bool) -> Narrowing:
-    """For all names: assumed of each known one; of the unseen ones only without a split, for they may differ."""
+    """For all names: assumed of each known one; of unseen ones only without a split, for they may differ."""
     names, sorts = tuple(ref.name for ref in expr.bound), tuple(ref.of for ref in expr.bound)
     assume = narrowing(expr.body, want)
     holds, wanted = truth(expr.body), YES if want else NO
@@ -288,11 +179,13 @@ def _every(expr: Quantified, want: bool) -> Narrowing:
 
     def narrow(state: Partial, env: Env, split: bool) -> list[Partial]:
         states = [state]
-        for combination in state.world.combinations(sorts):  # type: ignore[arg-type]
+        for combination in state.world.combinations(sorts):
             inner = {**env, **dict(zip(names, combination, strict=True))}
             unseen = OTHER in combination
             if unseen:
-                states = [_of_unseen(before, inner, assume, holds, wanted, remember) for before in states]
+                states = [
+                    _of_unseen(before, inner, assume, holds, wanted, remember=remember) for before in states
+                ]
             else:
                 states = [after for before in states for after in assume(before, inner, split)]
         return states
@@ -306,9 +199,13 @@ def _of_unseen(
     assume: Narrowing,
     holds: Truth,
     wanted: int,
+    *,
     remember: Callable[[Partial, Env], Partial],
 ) -> Partial:
-    """What holds of every unseen name narrows their common cells; where it leaves them open, it is kept as a fact."""
+    """What holds of every unseen name narrows their common cells.
+
+    Where it leaves them open, it is kept as a fact.
+    """
     if holds(state, env) == wanted:
         return state
     narrowed = assume(state, env, False)
@@ -326,7 +223,7 @@ def _some(expr: Quantified, want: bool) -> Narrowing:
     def narrow(state: Partial, env: Env, split: bool) -> list[Partial]:
         possible: list[tuple[Narrowing, Narrowing]] = []
         open_end = False
-        for combination in state.world.combinations(sorts):  # type: ignore[arg-type]
+        for combination in state.world.combinations(sorts):
             inner = {**env, **dict(zip(names, combination, strict=True))}
             found = holds(state, inner)
             if OTHER in combination:

@@ -1,19 +1,19 @@
-"""Partial states: what is known of the cells of one possible state. A cell that is not listed is not known at all.
+"""Partial states: what is known of the cells of one possible state; of a cell that is not listed, nothing.
 
-Names that the recording has not shown yet share the cells of ``OTHER``: what holds there holds of each of them. When a
-name is first seen, it takes over what is known of ``OTHER``.
+Names that the recording has not shown yet share the cells of ``OTHER``: what holds there holds of each of
+them. When a name is first seen, it takes over what is known of ``OTHER``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from typing import Any
 
 from mmsverify.concrete.belief.values import EITHER, Known, everything, join, meet, within
 from mmsverify.model.model import ModelData
-from mmsverify.model.sorts import ElementSort
+from mmsverify.model.sorts import ElementSort, Sort
 
 OTHER = "*"
 
@@ -24,15 +24,15 @@ Cells = Mapping[Key, Known]
 UNSEEN = "$unseen"
 DECIDED = "$decided"
 MARKS = frozenset({UNSEEN, DECIDED})
-"""Keys of what a partial state holds beside cells: facts about names not seen yet, answers decided but not yet shown."""
+"""Keys of what a state holds beside cells: facts about unseen names, answers decided but not shown."""
 
 
 @dataclass(frozen=True, slots=True)
 class Fact:
     """A formula that holds of every name not seen yet, but says nothing certain about any one of its cells.
 
-    It is assumed of a name when the name is seen. ``holds`` and ``wanted`` tell whether it is true of a state; ``bound`` are the
-    quantified names with their sorts, ``cells`` what it reads.
+    It is assumed of a name when the name is seen. ``holds`` and ``wanted`` tell whether it is true of a
+    state; ``bound`` are the quantified names with their sorts, ``cells`` what it reads.
     """
 
     assume: Callable[[Partial, Mapping[str, Any], bool], list[Partial]]
@@ -44,7 +44,7 @@ class Fact:
 
 
 class World:
-    """What all partial states of one belief share: the model's variables and the names seen so far, by sort."""
+    """What the partial states of one belief share: the model's variables, the names seen so far by sort."""
 
     def __init__(self, model: ModelData) -> None:
         self.model = model
@@ -66,7 +66,7 @@ class World:
             self.facts.append(make())
         return UNSEEN, (str(self._numbers[identity]),)
 
-    def combinations(self, sorts: Iterable[ElementSort]) -> Iterator[tuple[str, ...]]:
+    def combinations(self, sorts: Iterable[Sort]) -> Iterator[tuple[str, ...]]:
         """All tuples of names of these sorts, ``OTHER`` included."""
         return product(*(self.names[sort.name] for sort in sorts))
 
@@ -183,3 +183,20 @@ def distinct(states: Iterable[Partial]) -> list[Partial]:
             kept = [other for other in kept if not state.covers(other)]
             kept.append(state)
     return kept
+
+
+def widened(states: list[Partial], most: int) -> list[Partial]:
+    """Neighbours joined until at most ``most`` are left: more is allowed than before, never less."""
+    while len(states) > most:
+        states = distinct(
+            a if b is a else a.joined(b)
+            for a, b in zip(states[::2], [*states[1::2], states[-1]], strict=False)
+        )
+    return states
+
+
+def written(before: Sequence[Partial], after: Sequence[Partial]) -> frozenset[Key]:
+    """The cells in which the first states of two beliefs differ."""
+    old = before[0].cells if before else {}
+    new = after[0].cells if after else {}
+    return frozenset(k for k in {*old, *new} if old.get(k) != new.get(k) and not k[0].startswith("$"))

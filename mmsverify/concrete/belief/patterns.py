@@ -1,4 +1,7 @@
-"""Which cells an expression touches, as far as its parameters tell: a variable with names, or "any" for a bound one."""
+"""Which cells an expression touches, as far as its parameters tell.
+
+A pattern is a variable with names, or "any" in place of a bound one.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """What a partial state says of an expression: the set of values that it may have.
 
-Expressions are compiled once into closures. An environment gives parameters their values: the name of an element, a
-known set of values, a set of names (``None``: any set), or ``ABSENT``.
+Expressions are compiled once into closures. An environment gives parameters their values: the name of an
+element, a known set of values, a set of names (``None``: any set), or ``ABSENT``.
 """
 
 from __future__ import annotations
@@ -11,7 +11,18 @@ from functools import cache, partial
 from typing import Any
 
 from mmsverify.concrete.belief.partial import OTHER, Partial
-from mmsverify.concrete.belief.values import EITHER, NO, YES, Known, everything, exactly, join, same, smaller
+from mmsverify.concrete.belief.values import (
+    EITHER,
+    NO,
+    YES,
+    Known,
+    everything,
+    exactly,
+    interval,
+    join,
+    same,
+    smaller,
+)  # fmt: skip
 from mmsverify.model import expr as ex
 from mmsverify.model.expr import (
     And,
@@ -100,7 +111,7 @@ def truth(expr: Expr) -> Truth:
             return _equal(left, right)
         case Less(left, right):
             low, high = value(left), value(right)
-            return lambda state, env: smaller(low(state, env), high(state, env))  # type: ignore[arg-type]
+            return lambda state, env: smaller(interval(low(state, env)), interval(high(state, env)))
         case Quantified():
             return _quantified(expr)
     raise TypeError(f"no truth value: {expr!r}")
@@ -179,9 +190,9 @@ def _quantified(expr: Quantified) -> Truth:
 
     def holds(state: Partial, env: Env) -> int:
         result = other
-        for combination in state.world.combinations(sorts):  # type: ignore[arg-type]
+        for combination in state.world.combinations(sorts):
             found = inside(state, {**env, **dict(zip(names, combination, strict=True))})
-            # Of unseen names there may be none, so that they alone never make a universal false or an existential true.
+            # Of unseen names there may be none: they alone make no universal false, no existential true.
             if found == decided and OTHER not in combination:
                 return decided
             if found != other:
@@ -237,11 +248,12 @@ def _choice(condition: Truth, then: Value, otherwise: Value) -> Value:
 
 
 def _plus(left: Known, right: Known, factor: int) -> Known:
-    assert isinstance(left, tuple) and isinstance(right, tuple)
-    low, high = right if factor > 0 else (right[1], right[0])
+    (first, last), (low, high) = interval(left), interval(right)
+    if factor < 0:
+        low, high = high, low
     return (
-        None if left[0] is None or low is None else left[0] + factor * low,
-        None if left[1] is None or high is None else left[1] + factor * high,
+        None if first is None or low is None else first + factor * low,
+        None if last is None or high is None else last + factor * high,
     )
 
 

@@ -1,7 +1,7 @@
-"""What is known of one value: a set of truth values, of members of an enumeration, or an interval of integers.
+"""What is known of one value: a set of truth values or of enumeration members, or an interval of integers.
 
-Truth values are bit masks (``NO``, ``YES``, ``EITHER``), so that the hot path stays cheap. Every operation errs to
-the larger set: what is not known stays possible.
+Truth values are bit masks (``NO``, ``YES``, ``EITHER``), so that the hot path stays cheap. Every operation
+errs to the larger set: what is not known stays possible.
 """
 
 from __future__ import annotations
@@ -42,7 +42,8 @@ def meet(left: Known, right: Known) -> Known | None:
         return left & right or None
     if isinstance(left, frozenset) and isinstance(right, frozenset):
         return left & right or None
-    assert isinstance(left, tuple) and isinstance(right, tuple)
+    assert isinstance(left, tuple)
+    assert isinstance(right, tuple)
     low, high = _higher(left[0], right[0]), _lower(left[1], right[1])
     return None if low is not None and high is not None and low > high else (low, high)
 
@@ -53,7 +54,8 @@ def join(left: Known, right: Known) -> Known:
         return left | right
     if isinstance(left, frozenset) and isinstance(right, frozenset):
         return left | right
-    assert isinstance(left, tuple) and isinstance(right, tuple)
+    assert isinstance(left, tuple)
+    assert isinstance(right, tuple)
     low = None if left[0] is None or right[0] is None else min(left[0], right[0])
     high = None if left[1] is None or right[1] is None else max(left[1], right[1])
     return (low, high)
@@ -72,7 +74,8 @@ def without(known: Known, value: Known) -> Known | None:
         return known & ~value or None
     if isinstance(known, frozenset) and isinstance(value, frozenset):
         return known - value or None
-    assert isinstance(known, tuple) and isinstance(value, tuple)
+    assert isinstance(known, tuple)
+    assert isinstance(value, tuple)
     low, high = known
     if low == value[0] and low is not None:
         low += 1
@@ -100,6 +103,12 @@ def smaller(left: Interval, right: Interval) -> int:
     if left[1] is not None and right[0] is not None and left[1] < right[0]:
         return YES
     return NO if left[0] is not None and right[1] is not None and left[0] >= right[1] else EITHER
+
+
+def interval(known: Known) -> Interval:
+    """What is known of an integer, as the interval that it is."""
+    assert isinstance(known, tuple)
+    return known
 
 
 def below(known: Interval, limit: int | None) -> Interval | None:

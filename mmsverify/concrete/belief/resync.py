@@ -1,0 +1,77 @@
+"""Starting again after a contradiction: the states that agree with what was observed, whatever was believed.
+
+Each function errs to the larger set of states: what the contradiction leaves in doubt is no longer known.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from mmsverify.concrete.belief.act import settle, take, update
+from mmsverify.concrete.belief.constraints import Conflict, Constraints
+from mmsverify.concrete.belief.partial import UNSEEN, Partial, distinct
+from mmsverify.concrete.belief.truth import Env
+from mmsverify.model.model import ModelData
+from mmsverify.model.rows import MINUS, Row
+
+MOST_DOUBTED = 8
+
+
+def rigid(model: ModelData) -> frozenset[str]:
+    """The variables that never change: no contradiction makes one doubt them."""
+    return frozenset(name for name, signature in model.signatures.items() if signature.rigid)
+
+
+def sight_lost(states: Sequence[Partial], constraints: Constraints) -> list[Partial]:
+    """The states with nothing known of what can change."""
+    lasting = rigid(constraints.world.model)
+    return constraints.consistent(
+        distinct(Partial(s.world, {k: v for k, v in s.cells.items() if k[0] in lasting}) for s in states)
+    )
+
+
+def forced(
+    rows: Sequence[Row], states: Sequence[Partial], env: Env, constraints: Constraints
+) -> list[Partial]:
+    """The effects of the observed answer, its guards ignored."""
+    found: list[Partial] = []
+    for row in rows[:1] if rows and rows[0].answer == MINUS else rows:
+        for state in states:
+            after = update(row, state, env)
+            settled = settle(state, after, constraints)
+            found.append(
+                _without_names(after, env, constraints) if isinstance(settled, Conflict) else settled
+            )
+    return found
+
+
+def _without_names(state: Partial, env: Env, constraints: Constraints) -> Partial:
+    """The state with nothing known of the names in the event, and of what belongs to no name."""
+    names = set(_names(env))
+    lasting = rigid(state.world.model)
+    gone = [
+        key
+        for key in state.cells
+        if key[0] not in lasting and (not key[1] or names.intersection(key[1]) or key[0] == UNSEEN)
+    ]
+    found = constraints.everywhere(state.without(gone))
+    return state.forget(frozenset(state.world.full) - lasting) if isinstance(found, Conflict) else found
+
+
+def _names(env: Env) -> Iterator[str]:
+    for given in env.values():
+        if isinstance(given, str):
+            yield given
+        elif isinstance(given, frozenset):
+            yield from given
+
+
+def learned_anew(row: Row, states: Sequence[Partial], env: Env, constraints: Constraints) -> list[Partial]:
+    """The states if a message that contradicts them tells the truth: what it reads is forgotten, then learned."""
+    learned: list[Partial] = []
+    doubted = row.reads - rigid(constraints.world.model)
+    for state in states[:MOST_DOUBTED]:
+        blank = constraints.everywhere(state.forget(doubted))
+        if not isinstance(blank, Conflict):
+            learned += take(row, blank, env, constraints)[0]
+    return learned
