@@ -72,7 +72,7 @@ def is_place(expr: Expr) -> bool:
 
 
 def by_value(place: Expr, other: Expr, want: bool) -> Narrowing:
-    """Narrow a cell or a free choice to the values that the other side may have, or away from its only one."""
+    """Narrow a cell or a free choice to the values that the other side may have, or away from its one."""
     known, key = value(other), _place_key(place)
     holds = truth(Eq(place, other))
     now = value(place)

@@ -67,7 +67,7 @@ def _names(env: Env) -> Iterator[str]:
 
 
 def learned_anew(row: Row, states: Sequence[Partial], env: Env, constraints: Constraints) -> list[Partial]:
-    """The states if a message that contradicts them tells the truth: what it reads is forgotten, then learned."""
+    """The states if a message that contradicts them is true: what it reads is forgotten, then learned."""
     learned: list[Partial] = []
     doubted = row.reads - rigid(constraints.world.model)
     for state in states[:MOST_DOUBTED]:
