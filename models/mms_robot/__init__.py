@@ -1,7 +1,7 @@
 """The MMS companion standard for robots, GB/T 16720.3-1996 (eqv ISO/IEC 9506-3:1991), as an executable model.
 
-``as-written`` is the text step by step; ``repaired`` differs from it in named rows only, each with the clause that it mends
-and the reason. One file per clause group; the text and its repair stand together.
+``as-written`` is the text step by step; ``repaired`` differs from it in named rows only, each with the clause
+that it mends and the reason. One file per clause group; the text and its repair stand together.
 """
 
 from .associations import Associations, AssociationsRepaired
@@ -30,7 +30,8 @@ class AsWritten(
 
 
 class Repaired(
-    ProgramsRepaired, SelectionRepaired, ExecutionRepaired, VmdRepaired, AssociationsRepaired, Observations, PropertiesRepaired, Services, Figure8Repaired,
+    ProgramsRepaired, SelectionRepaired, ExecutionRepaired, VmdRepaired, AssociationsRepaired, Observations,
+    PropertiesRepaired, Services, Figure8Repaired,
     name="mms-robot", variant="repaired", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
 ):  # fmt: skip
     """The reading that keeps its own rules."""

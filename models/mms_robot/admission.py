@@ -1,4 +1,4 @@
-"""What stands before every service procedure in the repaired reading: local control and logical status (RP-10, RP-11)."""
+"""What stands before every repaired service procedure: local control and logical status (RP-10, RP-11)."""
 
 from mmsverify.model import refuse
 from mmsverify.model.steps import Refuse

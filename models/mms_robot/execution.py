@@ -1,7 +1,8 @@
 """Starting, stopping, resuming and resetting program invocations (7.3.3.3 to 7.3.3.6).
 
-An indication enters the transient state, the response leaves it; between the two the responder performs the procedure. ``entered``
-remembers which request did so: another request that finds the transient state is refused and must not leave it.
+An indication enters the transient state, the response leaves it; between the two the responder performs the
+procedure. ``entered`` remembers which request did so: another request that finds the transient state is
+refused and must not leave it.
 """
 
 from mmsverify.model import (

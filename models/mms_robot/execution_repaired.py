@@ -1,4 +1,7 @@
-"""Starting, stopping, resuming and resetting, repaired: all checks first, motion enabled told, MOTION-PAUSED can be left (7.3.3.3 to 7.3.3.6)."""
+"""Starting, stopping, resuming and resetting, repaired (7.3.3.3 to 7.3.3.6).
+
+All checks come first, it is told when motion is enabled, and MOTION-PAUSED can be left.
+"""
 
 from mmsverify.model import (
     MINUS,

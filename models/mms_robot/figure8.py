@@ -1,4 +1,7 @@
-"""Figure 8 (5.3.1.3.1): each of its transitions can be taken, each robot state is reached, and no other transition happens."""
+"""Figure 8 (5.3.1.3.1): each of its transitions can be taken, each robot state is reached.
+
+No transition happens that it does not show.
+"""
 
 from mmsverify.model import Sometimes, Step, any_of, repaired, service_is
 

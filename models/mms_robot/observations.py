@@ -1,4 +1,7 @@
-"""What Status, UnsolicitedStatus, GetProgramInvocationAttributes and variables show of the state (6.3.8, 7.3.2, 7.3.3.9, 8.3)."""
+"""What messages show of the state (6.3.8, 7.3.2, 7.3.3.9, 8.3).
+
+They are Status, UnsolicitedStatus, GetProgramInvocationAttributes and the standardized variables.
+"""
 
 from mmsverify.model import BOOL, Observation, for_all, integer, needs, optional, parameter, shown
 

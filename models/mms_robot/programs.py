@@ -1,4 +1,4 @@
-"""Creating, deleting and killing program invocations, and what they do by themselves (7.3.3.2, 7.3.3.7, 7.3.3.8; 6.3.2.5).
+"""Creating, deleting, killing program invocations; what they do by themselves (7.3.3.2, .7, .8; 6.3.2.5).
 
 Each part states the text as it stands, then the repaired reading of the same clauses.
 """
@@ -110,7 +110,8 @@ class ProgramsRepaired(Programs, VocabularyRepaired):
 
     moves_arm = arm[pi] & (control[pi] == Control.CONTROLLED)
 
-    # The selected program invocation goes away: it is deselected first, and what it controlled and still runs is stopped.
+    # The selected program invocation goes away: it is deselected first, and what it controlled and still runs
+    # is stopped.
     deselect_first = [
         state[c].becomes(State.STOPPED).over(c).when(selected[pi] & controls[pi, c] & (state[c] == State.RUNNING)),
         controller[c, a].becomes(False).over(c, a).when(selected[pi] & (a == pi)),

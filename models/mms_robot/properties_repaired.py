@@ -1,4 +1,4 @@
-"""The claims that the repaired reading states otherwise, and the invariants that it adds so that the others follow."""
+"""The claims that the repaired reading states otherwise, and the invariants from which the others follow."""
 
 from mmsverify.model import (
     PLUS,

@@ -1,4 +1,4 @@
-"""Small worlds in which the model is explored: which program invocations a profile predefines, and with what attributes."""
+"""The start of a device: which program invocations a profile predefines, and with what attributes."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -16,8 +16,9 @@ def scenario(
 ) -> tuple[dict[str, tuple[str, ...]], dict[tuple[str, tuple[str, ...]], Any]]:
     """Element names for each sort and the facts about them.
 
-    The first program invocations are the predefined ones of the profile, as many as fit; the others are there to be created.
-    Where the profile does not say which are predefined, at least half of them are there to be created.
+    The first program invocations are the predefined ones of the profile, as many as fit; the others are there
+    to be created. Where the profile does not say which are predefined, at least half of them are there to be
+    created.
     """
     size = sizes.get("PI", 3)
     predefined = list(profile["predefined"])[:size] if "predefined" in profile else list(DEFAULT[: size // 2])

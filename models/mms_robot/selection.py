@@ -1,4 +1,4 @@
-"""Selecting and deselecting the controlling program invocation (7.4.4), and the IDLE sub-states of figure 10 (6.3.3)."""
+"""Selecting the controlling program invocation (7.4.4), and the IDLE sub-states of figure 10 (6.3.3)."""
 
 from mmsverify.model import (
     Derived,
@@ -21,7 +21,8 @@ from .vocabulary import Control, RobotState, State, Vocabulary, VocabularyRepair
 class Selection(Vocabulary):
     """As written."""
 
-    # The sub-states of IDLE of a controlling program invocation (figure 10): transient ones last from indication to response.
+    # The sub-states of IDLE of a controlling program invocation (figure 10): transient ones last from indication
+    # to response.
     not_selected = Derived(
         (state[p] == State.IDLE)
         & (control[p] == Control.CONTROLLING)

@@ -1,4 +1,7 @@
-"""What a service has brought about when it answers result(+): claims about its step, the same in both readings (7.3.3, 7.4, 8.6.1)."""
+"""What a service has brought about when it answers result(+) (7.3.3, 7.4, 8.6.1).
+
+They are claims about its step, the same in both readings.
+"""
 
 from mmsverify.model import PLUS, Step, answered, for_all, service_is
 

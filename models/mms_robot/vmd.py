@@ -1,4 +1,7 @@
-"""The VMD: VMD Stop, VMD Reset, emergency action, the operator, local control and the two statuses (7.4.2, 7.4.3, 5.3.1.3.3.13, Table 1)."""
+"""The VMD and its operator (7.4.2, 7.4.3, 5.3.1.3.3.13, Table 1).
+
+VMD Stop, VMD Reset, emergency action, local control and the two statuses.
+"""
 
 from mmsverify.model import Procedure, Transition, accept, do, if_, internal, refuse, repaired, response
 

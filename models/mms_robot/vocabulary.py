@@ -1,7 +1,7 @@
 """The words of the robot standard: sorts, state variables and the parameters of its services (clauses 3, 5.3, 6).
 
-A reference from one program invocation to another is a relation, so that "the list says" and "the reference says" are two
-facts whose agreement is a property and not a given. NONE and UNCONTROLLED are "no element".
+A reference from one program invocation to another is a relation, so that "the list says" and "the reference
+says" are two facts whose agreement is a property and not a given. NONE and UNCONTROLLED are "no element".
 """
 
 from mmsverify.model import (
