@@ -226,6 +226,9 @@ def update(draw: Draw, hand: Hand) -> Assign:
             lambda: world.link[bound, element(draw, hand)].becomes(condition(draw, hand, 1)),
             lambda: world.colour[bound].becomes(colour(draw, hand, 1)),
             lambda: world.level[bound].becomes(number(draw, hand, 1)),
+            # The same value for every element: it is made if one of them meets the condition.
+            lambda: world.flag().becomes(draw(st.booleans())),
+            lambda: world.mark[draw(st.sampled_from(hand.elements[:-1]))].becomes(draw(st.booleans())),
         ]
     made: Assign = one_of(draw, options)
     if draw(st.booleans()):
