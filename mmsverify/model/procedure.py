@@ -208,12 +208,12 @@ class _Run:
         sort = step.element.of
         assert isinstance(sort, ElementSort)
         bad, done = Element(Ref(f"bad_{step.label}", sort)), SetOf(f"done_{step.label}", sort)
-        saved = self.choices
+        saved = self.choices, self.made
         self.choices += (bad.ref, done)
-        yield self._row(
-            step, MINUS, (self._conjunct(step, self._fails(step, bad, done)),), self._half_done(step, done)
-        )
-        self.choices = saved
+        failure = self._conjunct(step, self._fails(step, bad, done))
+        self.made += self._over_start(self._half_done(step, done))
+        yield self._row(step, MINUS, (failure,))
+        self.choices, self.made = saved
         everywhere = bind(True, (step.element,), ex.disjunction(ex.negation(step.where), step.possible))
         self.passed += (self._conjunct(step, self.now(everywhere)),)
         handled = tuple(_over(assign, step.element, step.where) for assign in step.body)

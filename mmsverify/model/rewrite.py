@@ -85,12 +85,13 @@ def substitute(expr: Expr, refs: Mapping[str, Expr]) -> Expr:
 def _substitute_under(expr: Quantified, refs: Mapping[str, Expr]) -> Expr:
     free = {name: value for name, value in refs.items() if all(ref.name != name for ref in expr.bound)}
     taken = {name for value in free.values() for name in refs_of(value)}
-    fresh = {ref.name: Ref(_unused(ref.name, taken), ref.of) for ref in expr.bound if ref.name in taken}
+    fresh = {ref.name: Ref(unused(ref.name, taken), ref.of) for ref in expr.bound if ref.name in taken}
     bound = tuple(fresh.get(ref.name, ref) for ref in expr.bound)
     return quantified(expr.universal, bound, substitute(expr.body, {**free, **fresh}))
 
 
-def _unused(name: str, taken: set[str]) -> str:
+def unused(name: str, taken: set[str]) -> str:
+    """A name like ``name`` that is not taken."""
     while name in taken:
         name += "'"
     return name

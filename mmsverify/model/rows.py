@@ -14,7 +14,7 @@ from typing import Literal
 from mmsverify.model import expr as ex
 from mmsverify.model.declare import Assign, On
 from mmsverify.model.expr import Cell, Expr, Ref
-from mmsverify.model.rewrite import map_cells, rebuilt, substitute
+from mmsverify.model.rewrite import map_cells, rebuilt, substitute, unused
 from mmsverify.model.sorts import Sort
 from mmsverify.model.terms import SetOf
 
@@ -180,15 +180,20 @@ def matched(assign: Assign, args: tuple[Expr, ...]) -> tuple[Expr, Expr]:
     """When the assignment touches the cell at ``args``, and the value that it gives there."""
     bound = {ref.name: ref for ref in assign.bound}
     solved: dict[str, Expr] = {}
-    tests: list[Expr] = []
+    left: list[tuple[Expr, Expr]] = []
     for target, actual in zip(assign.args, args, strict=True):
         if isinstance(target, Ref) and target.name in bound and target.name not in solved:
             solved[target.name] = actual
         else:
-            tests.append(ex.equal(actual, target))
+            left.append((actual, target))
+    # The names in ``args`` are not this assignment's: no substitution or quantifier of it may touch them.
     free = tuple(ref for name, ref in bound.items() if name not in solved)
-    condition = substitute(ex.conjunction(*tests, assign.where), solved)
-    return ex.quantified(False, free, condition), substitute(assign.value, solved)
+    taken = {name for arg in args for name in ex.refs_of(arg)}
+    fresh = {ref.name: Ref(unused(ref.name, taken), ref.of) for ref in free}
+    known: dict[str, Expr] = {**solved, **fresh}
+    tests = (ex.equal(actual, substitute(target, known)) for actual, target in left)
+    condition = ex.conjunction(*tests, substitute(assign.where, known))
+    return ex.quantified(False, tuple(fresh.values()), condition), substitute(assign.value, known)
 
 
 def step_formula(claim: Expr, row: Row) -> Expr:
