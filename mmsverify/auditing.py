@@ -10,11 +10,16 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from mmsverify.audit.annotate import annotate
 from mmsverify.audit.replay import Replay
+from mmsverify.audit.spoken import Listener
 from mmsverify.errors import InputError, MmsverifyError
+from mmsverify.events import MmsEvent
 from mmsverify.formats.mcap import McapTrace, read_trace
 from mmsverify.profiles import from_metadata, load_profile
 from mmsverify.results import Audit, AuditedInput, Finding
+
+__all__ = ["annotate", "audit_traces", "read_events"]
 
 UNREADABLE = "input.unreadable"
 """The rule of a file that is no recording, or of the point at which one cannot be read on."""
@@ -45,6 +50,11 @@ def audit_traces(
         inputs.append(entry)
         findings += found
     return Audit(inputs, findings)
+
+
+def read_events(path: Path) -> Iterator[MmsEvent]:
+    """The MMS messages of a recording as flat data, answers paired with requests; nothing is judged."""
+    return Listener().events(read_trace(path))
 
 
 def _audit(
