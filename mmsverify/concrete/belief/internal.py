@@ -16,10 +16,11 @@ from typing import Any, Literal
 from mmsverify.concrete.belief.act import changed, possible, take
 from mmsverify.concrete.belief.compiled import compiled
 from mmsverify.concrete.belief.constraints import Conflict, Constraints
+from mmsverify.concrete.belief.horizon import Reach, drifted, reach
 from mmsverify.concrete.belief.partial import DECIDED, OTHER, Partial, distinct
 from mmsverify.concrete.belief.patterns import Pattern, at, touches
 from mmsverify.concrete.belief.truth import Env
-from mmsverify.concrete.belief.values import NO, YES
+from mmsverify.concrete.belief.values import NO, YES, join
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Row
 from mmsverify.model.sorts import BOOL, ElementSort
@@ -134,15 +135,26 @@ class Unseen:
         firings = self._firings(start, evidence)
         if not outstanding:
             firings = self._useful(start, firings, goal)
+        horizon = None if outstanding else self._horizon(start, firings)
         seen: dict[Partial, None] = {start: None}
         work: deque[tuple[Partial, History]] = deque([(start, frozenset())])
         while work and len(seen) < LARGEST:
             state, history = work.popleft()
             for tag, after in self._next(state, firings, history, outstanding, goal):
                 if after not in seen and not state.covers(after):
+                    if horizon is not None and goal.impossible(drifted(after, horizon)):
+                        continue
                     seen[after] = None
                     work.append((after, history | {tag}))
         return distinct(seen)
+
+    def _horizon(self, state: Partial, firings: Sequence[Firing]) -> Reach | None:
+        """What may still change; ``None`` where somebody at the panel may change anything."""
+        found = reach(((firing.row, dict(firing.env)) for firing in firings), Partial(state.world, {}))
+        control = (
+            join(found.get("local_control", NO), state.get(("local_control", ()))) if self._panel else NO
+        )
+        return None if control != NO else found
 
     def _firings(self, state: Partial, evidence: Evidence) -> list[Firing]:
         return [

@@ -49,7 +49,7 @@ class World:
     def __init__(self, model: ModelData) -> None:
         self.model = model
         self.full: dict[str, Known] = {s.name: everything(s.of) for s in model.signatures.values()}
-        self.full[UNSEEN] = EITHER
+        self.full |= {UNSEEN: EITHER, DECIDED: frozenset()}
         self.names: dict[str, list[str]] = {sort.name: [OTHER] for sort in model.sorts.values()}
         self.facts: list[Fact] = []
         self.survives: dict[Any, bool] = {}
@@ -74,12 +74,13 @@ class World:
 class Partial:
     """One partial state. Never changed once it is made; equal cells make equal states."""
 
-    __slots__ = ("_hash", "cells", "world")
+    __slots__ = ("_decisions", "_hash", "cells", "world")
 
     def __init__(self, world: World, cells: Cells) -> None:
         self.world = world
         self.cells = cells
         self._hash: int | None = None
+        self._decisions: frozenset[tuple[Key, Known]] | None = None
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Partial) and self.cells == other.cells
@@ -149,8 +150,22 @@ class Partial:
         return Partial(self.world, more)
 
     def covers(self, other: Partial) -> bool:
-        """Whether every state that ``other`` allows, this one allows."""
-        return all(within(other.get(key), value) for key, value in self.cells.items())
+        """Whether every state that ``other`` allows, this one allows; decided answers must be the same."""
+        if self.decisions() != other.decisions():
+            return False
+        for key, value in self.cells.items():
+            if key[0] == UNSEEN:
+                if key not in other.cells:
+                    return False
+            elif not within(other.get(key), value):
+                return False
+        return True
+
+    def decisions(self) -> frozenset[tuple[Key, Known]]:
+        """The answers that are decided and not yet shown."""
+        if self._decisions is None:
+            self._decisions = frozenset((k, v) for k, v in self.cells.items() if k[0] == DECIDED)
+        return self._decisions
 
     def joined(self, other: Partial) -> Partial:
         """A state that allows what either allows."""
@@ -176,13 +191,47 @@ def _renamed(
 
 
 def distinct(states: Iterable[Partial]) -> list[Partial]:
-    """The states without those that another one covers, in order."""
+    """The states without those that another one covers, in order; two that differ in one cell become one."""
     kept: list[Partial] = []
-    for state in dict.fromkeys(states):
+    for state in _merged(list(dict.fromkeys(states))):
         if not any(other.covers(state) for other in kept):
             kept = [other for other in kept if not state.covers(other)]
             kept.append(state)
     return kept
+
+
+def _merged(states: list[Partial]) -> list[Partial]:
+    """The same states, fewer: where one cell is all that tells two apart, it is joined; nothing is lost."""
+    merging = True
+    while merging and len(states) > 1:
+        merging = False
+        apart = _differing(states)
+        for key in apart:
+            if key[0] in MARKS:
+                continue
+            groups: dict[tuple[Known | None, ...], Partial] = {}
+            for state in states:
+                rest = tuple(state.cells.get(other) for other in apart if other != key)
+                groups[rest] = _joined_at(key, groups[rest], state) if rest in groups else state
+            merging = merging or len(groups) < len(states)
+            states = list(groups.values())
+    return states
+
+
+def _differing(states: Sequence[Partial]) -> list[Key]:
+    """The cells in which the states are not all alike, in a fixed order."""
+    first = states[0].cells
+    apart = {
+        key
+        for state in states[1:]
+        for key in {*first, *state.cells}
+        if first.get(key) != state.cells.get(key)
+    }
+    return sorted(apart)
+
+
+def _joined_at(key: Key, left: Partial, right: Partial) -> Partial:
+    return left.put(key, join(left.get(key), right.get(key)))
 
 
 def widened(states: list[Partial], most: int) -> list[Partial]:
