@@ -22,10 +22,9 @@ def reach(firings: Iterable[tuple[Row, dict[str, Any]]], blank: Partial) -> Reac
     found: Reach = {}
     for row, env in firings:
         for assign in row.assigns:
-            for known in _values(assign.value, env, blank):
-                found[assign.variable] = (
-                    join(found[assign.variable], known) if assign.variable in found else known
-                )
+            target = Cell(assign.variable, assign.args, assign.value.sort)
+            for known in _values(assign.value, target, env, blank):
+                found[assign.variable] = join(found.get(assign.variable, known), known)
     return found
 
 
