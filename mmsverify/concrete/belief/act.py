@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import reduce
 from itertools import product
 from math import prod
 
@@ -64,13 +65,25 @@ def settle(before: Partial, after: Partial, constraints: Constraints) -> Partial
 
 def take(row: Row, state: Partial, env: Env, constraints: Constraints) -> tuple[list[Partial], list[Refusal]]:
     """The states after the row, without what was found out about its free choices; or why there are none."""
-    ready, refusals = satisfy(row, state, env, constraints)
     done: list[Partial] = []
-    for before in ready:
-        after = settle(before, _plain(update(row, before, env)), constraints)
-        if not isinstance(after, Conflict):
-            done.append(after)
+    refusals: list[Refusal] = []
+    for each in compiled(row).instances(state, env):
+        ready, refused = _ready(row, state, each, constraints)
+        refusals += refused
+        for before in ready:
+            after = settle(before, _plain(update(row, before, each)), constraints)
+            if not isinstance(after, Conflict):
+                done.append(after)
     return done, refusals
+
+
+def _ready(
+    row: Row, state: Partial, env: Env, constraints: Constraints
+) -> tuple[list[Partial], list[Refusal]]:
+    """The states in which the row can be taken; an unseen name that is chosen narrows nothing."""
+    if not compiled(row).chooses_unseen(env):
+        return satisfy(row, state, env, constraints)
+    return ([], []) if compiled(row).refuses(state, env) else ([state], [])
 
 
 def possible(row: Row, state: Partial, env: Env) -> bool:
@@ -163,6 +176,11 @@ def _assign(assign: CompiledAssign, state: Partial, env: Env, cells: dict[Key, K
     if ABSENT in args:
         return
     key = (assign.variable, args)
-    new = assign.value(state, env)
-    old = cells.get(key)
-    cells[key] = new if holds == YES else join(new, state.get(key) if old is None else old)
+    if holds == YES:
+        cells[key] = assign.value(state, env)
+        return
+    # The condition may speak of the cell itself: the new value belongs to where it holds, the old one
+    # to where it does not.
+    values = [assign.value(met, env) for met in assign.made(state, env, False)]
+    values += [cells.get(key, spared.get(key)) for spared in assign.spared(state, env, False)]
+    cells[key] = reduce(join, values or [state.get(key)])

@@ -11,16 +11,22 @@ from typing import Any
 
 from mmsverify.concrete.belief.comparison import Narrowing
 from mmsverify.concrete.belief.narrow import narrowing
+from mmsverify.concrete.belief.partial import OTHER, Partial
 from mmsverify.concrete.belief.patterns import Pattern, patterns
 from mmsverify.concrete.belief.truth import Env, Truth, Value, truth, value
+from mmsverify.concrete.belief.values import NO
 from mmsverify.model.declare import Assign
 from mmsverify.model.expr import Ref
 from mmsverify.model.rows import Row
+from mmsverify.model.sorts import ElementSort
 
 
 @dataclass(frozen=True, slots=True)
 class CompiledAssign:
-    """One update: bound names and their sorts, the condition, the target's arguments, the new value."""
+    """One update: bound names and their sorts, the condition, the target's arguments, the new value.
+
+    ``made`` and ``spared`` narrow a state to where the condition holds, and to where it does not.
+    """
 
     variable: str
     args: tuple[str, ...]
@@ -28,11 +34,16 @@ class CompiledAssign:
     sorts: tuple[Any, ...]
     where: Truth
     value: Value
+    made: Narrowing
+    spared: Narrowing
 
 
 @dataclass(frozen=True, slots=True)
 class CompiledRow:
-    """A row's guard as truth tests and as narrowings, its updates, and the cells in its expressions."""
+    """A row's guard as truth tests and as narrowings, its updates, and the cells in its expressions.
+
+    ``chosen`` are the elements that the responder chooses and no event shows.
+    """
 
     row: Row
     tests: tuple[Truth, ...]
@@ -40,10 +51,27 @@ class CompiledRow:
     assigns: tuple[CompiledAssign, ...]
     guard_cells: tuple[Pattern, ...]
     cells: tuple[Pattern, ...]
+    chosen: tuple[Ref, ...]
 
-    def impossible(self, state: Any, env: Env) -> bool:
-        """Whether a condition of the guard certainly fails."""
-        return any(test(state, env) == 1 for test in self.tests)
+    def impossible(self, state: Partial, env: Env) -> bool:
+        """Whether a condition of the guard certainly fails, whatever is chosen."""
+        return all(self.refuses(state, each) for each in self.instances(state, env))
+
+    def refuses(self, state: Partial, env: Env) -> bool:
+        """Whether a condition of the guard certainly fails in an environment with all choices made."""
+        return any(test(state, env) == NO for test in self.tests)
+
+    def instances(self, state: Partial, env: Env) -> Iterator[Env]:
+        """The environment with every choice of elements; ``OTHER`` stands for one unseen name."""
+        if not self.chosen:
+            yield env
+            return
+        for names in state.world.combinations([ref.of for ref in self.chosen]):  # type: ignore[misc]
+            yield {**env, **dict(zip((ref.name for ref in self.chosen), names, strict=True))}
+
+    def chooses_unseen(self, env: Env) -> bool:
+        """Whether one of the choices is an unseen name: what is known of all of them need not be its own."""
+        return any(env[ref.name] == OTHER for ref in self.chosen)
 
 
 _COMPILED: dict[int, CompiledRow] = {}
@@ -68,6 +96,7 @@ def _compile(row: Row) -> CompiledRow:
         assigns=tuple(map(_assign, row.assigns)),
         guard_cells=guard_cells,
         cells=tuple(sorted({*guard_cells, *written, *(p for a in row.assigns for p in _reads(a))}, key=str)),
+        chosen=tuple(c for c in row.choices if isinstance(c, Ref) and isinstance(c.of, ElementSort)),
     )
 
 
@@ -79,6 +108,8 @@ def _assign(assign: Assign) -> CompiledAssign:
         tuple(ref.of for ref in assign.bound),
         truth(assign.where),
         value(assign.value),
+        narrowing(assign.where, True),
+        narrowing(assign.where, False),
     )
 
 
