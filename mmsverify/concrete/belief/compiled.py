@@ -66,7 +66,7 @@ class CompiledRow:
         if not self.chosen:
             yield env
             return
-        for names in state.world.combinations([ref.of for ref in self.chosen]):  # type: ignore[misc]
+        for names in state.world.combinations([ref.of for ref in self.chosen]):
             yield {**env, **dict(zip((ref.name for ref in self.chosen), names, strict=True))}
 
     def chooses_unseen(self, env: Env) -> bool:
