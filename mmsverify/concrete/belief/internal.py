@@ -7,7 +7,6 @@ the panel can change is not known.
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
@@ -30,6 +29,7 @@ Evidence = Literal["answer", "observation"]
 
 Tag = tuple[str, tuple[str, ...]]
 History = frozenset[Tag]
+Reached = tuple[Partial, History]
 
 PANEL = "panel"
 LARGEST = 4000
@@ -95,6 +95,7 @@ class Unseen:
         rows = [row for row in self.model.rows if row.on.phase == "internal"]
         self._rows = {"answer": [r for r in rows if r.explains == "any"], "observation": rows}
         panel = [r for r in self.model.rows if any(p.name == PANEL for p in r.on.parameters)]
+        self._bars = {PANEL, *(name for row in rows for name in row.never_after)}
         self._panel = frozenset().union(*(r.writes for r in panel)) if panel else frozenset()
 
     def forget(self) -> None:
@@ -136,17 +137,38 @@ class Unseen:
         if not outstanding:
             firings = self._useful(start, firings, goal)
         horizon = None if outstanding else self._horizon(start, firings)
-        seen: dict[Partial, None] = {start: None}
-        work: deque[tuple[Partial, History]] = deque([(start, frozenset())])
-        while work and len(seen) < LARGEST:
-            state, history = work.popleft()
-            for tag, after in self._next(state, firings, history, outstanding, goal):
-                if after not in seen and not state.covers(after):
-                    if horizon is not None and goal.impossible(drifted(after, horizon)):
-                        continue
-                    seen[after] = None
-                    work.append((after, history | {tag}))
-        return distinct(seen)
+        level: list[Reached] = [(start, frozenset())]
+        seen = list(level)
+        while level and len(seen) < LARGEST:
+            found: list[Reached] = []
+            for state, history in level:
+                for tag, after in self._next(state, firings, history, outstanding, goal):
+                    if horizon is None or not goal.impossible(drifted(after, horizon)):
+                        found.append((after, history | {tag}))
+            level = [new for new in self._joined(found) if not any(_covers(old, new) for old in seen)]
+            seen += level
+        return distinct([*(state for state, _ in seen), *(self._anything(start, firings) if level else ())])
+
+    def _anything(self, state: Partial, firings: Sequence[Firing]) -> list[Partial]:
+        """Too much may have happened to follow it step by step: nothing is known of what it could change."""
+        changed = frozenset[str]().union(*(firing.row.writes for firing in firings))
+        found = self.constraints.everywhere(state.forget(changed | self._panel))
+        return [] if isinstance(found, Conflict) else [found]
+
+    def _joined(self, found: Sequence[Reached]) -> Iterator[Reached]:
+        """The states reached in as many steps, joined where that loses nothing.
+
+        What has fired in all of them has fired; firings that bar others keep their states apart.
+        """
+        groups: dict[History, list[tuple[Partial, History]]] = {}
+        for state, past in found:
+            groups.setdefault(frozenset(tag for tag in past if tag[0] in self._bars), []).append(
+                (state, past)
+            )
+        for group in groups.values():
+            for joined in distinct(state for state, _ in group):
+                pasts = [past for state, past in group if joined.covers(state)]
+                yield joined, frozenset.intersection(*pasts)
 
     def _horizon(self, state: Partial, firings: Sequence[Firing]) -> Reach | None:
         """What may still change; ``None`` where somebody at the panel may change anything."""
@@ -262,3 +284,8 @@ def _overlap(cells: frozenset[Pattern], need: Pattern) -> bool:
         other == variable and all(a is None or b is None or a == b for a, b in zip(args, names, strict=True))
         for other, args in cells
     )
+
+
+def _covers(old: Reached, new: Reached) -> bool:
+    """Whether what may follow from ``new`` may follow from ``old``: it allows as much, and less has fired."""
+    return old[1] <= new[1] and old[0].covers(new[0])
