@@ -11,7 +11,7 @@ from sources import ROOT, tracked
 OUTSIDE = re.compile(r"\.\./" + r"shared\b|(?<![\w.])/" + r"work/")
 
 TEST_COMMANDS = (
-    "python -m venv .venv",
+    "python3 -m venv .venv",
     ".venv/bin/pip install -q -e '.[dev]'",
     ".venv/bin/python -m pytest -q -n 2 -m 'not slow'",
 )
