@@ -1,0 +1,170 @@
+"""Whole small recordings: what an audit finds in them, and what it does not dare to say."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from mmsverify.auditing import audit_traces
+from mmsverify.formats.mms import Pdu
+from mmsverify.results import Audit
+from mmsverify.samples import pdus
+from mmsverify.samples.cell import ARM, CONFLICT, OFFERED, ROBOT_ADDITIONAL, Cell
+from mmsverify.samples.pdus import controlled, controlling, initiation
+from mmsverify.samples.recording import Recording
+
+LOADED, READY, EXECUTING = "robot-loaded", "robot-ready", "robot-executing"
+Listen = Callable[[Recording], Audit]
+
+
+@pytest.fixture
+def listen(tmp_path: Path) -> Listen:
+    def audited(recording: Recording, **profile: str) -> Audit:
+        path = tmp_path / "made.mcap"
+        recording.write(path, {"model": "mms-robot", **profile} if profile else None)
+        return audit_traces([path], profile=None, model=None)
+
+    return audited
+
+
+def rules(audit: Audit) -> list[tuple[int | None, str]]:
+    return [(finding.index, finding.rule) for finding in audit.findings]
+
+
+def cell(*, begun: bool = True) -> Cell:
+    made = Cell(Recording("cell"))
+    if begun:
+        made.begin()
+    return made
+
+
+def test_a_recording_that_begins_in_mid_operation_may_start_with_anything(listen: Listen) -> None:
+    made = cell(begun=False)
+    made.status(EXECUTING, "TASK")
+    made.attributes("TASK", "running", controlling([ARM]))
+    made.run("stop", ARM)
+    assert rules(listen(made.recording)) == []
+
+
+def test_what_the_beginning_shows_is_known_from_then_on(listen: Listen) -> None:
+    made = cell(begun=False)
+    made.status(READY, "TASK")
+    made.start("OTHER", cycles=1)
+    (found,) = listen(made.recording).findings
+    assert found.rule == "start.not-selected"
+    assert found.clauses[0] == "R-7.3.3.3.3-d0"
+    assert (found.expected, found.observed) == (("result(-)",), "result(+)")
+
+
+def test_a_gap_forgets_what_was_known(listen: Listen) -> None:
+    made = cell(begun=False)
+    made.status(READY, "TASK")
+    made.recording.link(made.name, "gap")
+    made.start("OTHER", cycles=1)
+    assert rules(listen(made.recording)) == []
+
+
+def test_a_refusal_that_nothing_explains_is_a_warning(listen: Listen) -> None:
+    made = cell()
+    made.calibration("idle")
+    made.status("robot-idle")
+    made.is_refused("start", "R_CAL", CONFLICT, "idle")
+    (found,) = listen(made.recording).findings
+    assert (found.rule, found.severity) == ("start.refused", "warning")
+
+
+def test_a_refusal_for_want_of_resources_needs_no_explanation(listen: Listen) -> None:
+    made = cell()
+    body = {"programInvocationName": "TASK", "listOfDomainNames": ["TASK"], "reusable": True}
+    asked = made.ask("createProgramInvocation", body, 1)
+    made.recording.say(
+        made.name,
+        "server",
+        Pdu("confirmed-ErrorPDU", asked, body={"serviceError": {"errorClass": ("resource", 1)}}),
+    )
+    assert rules(listen(made.recording)) == []
+
+
+def test_a_device_that_is_no_robot_is_judged_by_the_base_standard_only(listen: Listen) -> None:
+    made = cell(begun=False)
+    for sort, side in (("Request", "client"), ("Response", "server")):
+        pdu = initiation(sort, ("status", "start"), ())
+        del pdu.body[f"init{sort}Detail"][
+            "additionalSupported" + ("Calling" if side == "client" else "Called")
+        ]
+        made.recording.say(made.name, side, pdu)  # type: ignore[arg-type]
+    made.call("start", {"programInvocationName": "NOBODY"})
+    made.call("start", {"programInvocationName": "NOBODY"})
+    made.call("kill", {"programInvocationName": "NOBODY"})
+    assert rules(listen(made.recording)) == [(7, "negotiation.service")]
+
+
+def test_octets_that_are_no_pdu_are_a_finding_and_the_audit_goes_on(listen: Listen) -> None:
+    made = cell()
+    made.recording._add(made.recording._messages[-1][1], b"\x30\x03\x02\x01")
+    made.status(EXECUTING, None)
+    assert rules(listen(made.recording)) == [(3, "protocol.undecodable"), (5, "status.executing-unselected")]
+
+
+def test_nothing_is_said_after_conclude(listen: Listen) -> None:
+    made = cell()
+    made.close()
+    made.status("robot-idle")
+    assert rules(listen(made.recording)) == []
+    late = cell()
+    late.recording.say(late.name, "client", Pdu("conclude-RequestPDU"))
+    late.recording.say(late.name, "server", Pdu("conclude-ResponsePDU"))
+    late.status("robot-idle")
+    assert rules(listen(late.recording))[0] == (5, "protocol.after-conclude")
+
+
+def test_a_status_that_contradicts_itself_is_told_once(listen: Listen) -> None:
+    made = cell()
+    made.create("TASK")
+    for _ in range(4):
+        made.status(EXECUTING, None)
+    assert rules(listen(made.recording)) == [(6, "status.executing-unselected")]
+
+
+def test_the_arm_must_be_controlled(listen: Listen) -> None:
+    made = cell()
+    made.attributes(ARM, "idle", controlling([]), deletable=False)
+    (found,) = listen(made.recording).findings
+    assert (found.rule, found.clauses[0]) == ("attributes.arm-control", "R-8.3.1-6")
+
+
+def test_a_variable_of_the_standard_has_its_type(listen: Listen) -> None:
+    made = cell()
+    made.read(("R_VPWR", ("integer", 1)))
+    (found,) = listen(made.recording).findings
+    assert (found.rule, found.clauses[0]) == ("variable.type", "R-8.5.3.1-1")
+
+
+def test_a_second_association_is_too_many_for_the_base_class_only(listen: Any) -> None:
+    made = cell()
+    Cell(made.recording, "second").open(OFFERED, ROBOT_ADDITIONAL, 1)
+    assert rules(listen(made.recording)) == [(5, "initiate.second-association")]
+    assert rules(listen(made.recording, associations="multiple")) == []
+
+
+def test_a_notification_about_the_arm_needs_a_cause(listen: Listen) -> None:
+    made = cell()
+    made.arm("idle")
+    made.call("defineEventEnrollment", pdus.enrollment("E", ARM, ARM))
+    made.arm_left_running("E", "running")
+    assert "event.arm-running" in [rule for _, rule in rules(listen(made.recording))]
+
+
+def test_one_fault_is_one_finding(listen: Listen) -> None:
+    """After a violation every state that agrees with what was seen is possible: no cascade."""
+    made = cell()
+    made.create("TASK")
+    made.start("TASK", free=True)
+    made.attributes("TASK", "running", controlling([]))
+    made.run("stop", "TASK")
+    made.attributes("TASK", "stopped", controlling([]))
+    made.attributes(ARM, "idle", controlled(None), deletable=False)
+    assert rules(listen(made.recording)) == [(6, "start.not-selected")]
