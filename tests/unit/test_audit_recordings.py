@@ -69,8 +69,9 @@ def test_a_gap_forgets_what_was_known(listen: Listen) -> None:
 
 def test_a_refusal_that_nothing_explains_is_a_warning(listen: Listen) -> None:
     made = cell()
-    made.calibration("idle")
-    made.status("robot-idle")
+    for _ in range(2):
+        made.status("robot-idle")
+        made.calibration("idle")
     made.is_refused("start", "R_CAL", CONFLICT, "idle")
     (found,) = listen(made.recording).findings
     assert (found.rule, found.severity) == ("start.refused", "warning")
