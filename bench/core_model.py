@@ -77,10 +77,13 @@ class CorePart(Model):
     arm = Relation(PI, rigid=True, doc="the predefined one")
 
     one_arm = Assume("C-arm", for_all(a, b)((arm[a] & arm[b]) >> (a == b)))
-    states_at_first = Initially("C-init", for_all(p)(
-        (arm[p] & (state[p] == IDLE) & (control[p] == CONTROLLED))
-        | (~arm[p] & (state[p] == NONEXISTENT) & (control[p] == NORMAL))
-    ))
+    states_at_first = Initially(
+        "C-init",
+        for_all(p)(
+            (arm[p] & (state[p] == IDLE) & (control[p] == CONTROLLED))
+            | (~arm[p] & (state[p] == NONEXISTENT) & (control[p] == NORMAL))
+        ),
+    )
     links_at_first = Initially("C-init", for_all(a, c)(~refers[c, a] & ~controls[a, c]))
     rest_at_first = Initially("C-init", for_all(p)(~selected[p]) & ~motion())
 

@@ -1,4 +1,4 @@
-"""What the tool finds, as data: findings of an audit, verdicts of a check. Renderers read these and compute nothing.
+"""What the tool finds, as data: findings of an audit, verdicts of a check. Renderers compute nothing.
 
 The field names are those of the JSON results; they are stable.
 """
@@ -19,8 +19,8 @@ class Finding:
 
     ``index`` counts from 0 over all messages of the file in event order (``None``: the file as a whole);
     ``time`` is the capture time in ns. ``clauses`` are ids of the clause register, ``readings`` those of the
-    project's own readings and base-standard assumptions. ``before`` maps attributes to the value that the model
-    held before the event, or to ``{"oneOf": [...]}``.
+    project's own readings and base-standard assumptions. ``before`` maps attributes to the value that the
+    model held before the event, or to ``{"oneOf": [...]}``.
     """
 
     path: str
@@ -42,7 +42,7 @@ class Finding:
 
 @dataclass(frozen=True, slots=True)
 class AuditedInput:
-    """How one input was read: ``messages`` of any channel, ``events`` that a model judged, ``skipped`` the rest."""
+    """How an input was read: ``messages`` of all channels, ``events`` that a model judged, ``skipped`` ones."""
 
     path: str
     messages: int
@@ -72,7 +72,7 @@ class PathStep:
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """What is known of one property. ``scope`` is ``any number of ...`` or a bound such as ``PI=3, Client=1``.
+    """What is known of one property. ``scope`` is ``any number of ...`` or a bound like ``PI=3, Client=1``.
 
     ``depth`` is the bound on steps where the method has one; ``reason`` says why a verdict is ``unknown``.
     """

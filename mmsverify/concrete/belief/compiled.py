@@ -49,8 +49,9 @@ class CompiledRow:
     tests: tuple[Truth, ...]
     guard: tuple[Narrowing, ...]
     assigns: tuple[CompiledAssign, ...]
-    guard_cells: tuple[Pattern, ...]
-    cells: tuple[Pattern, ...]
+    needs: tuple[Pattern, ...]
+    reads: tuple[Pattern, ...]
+    writes: tuple[Pattern, ...]
     chosen: tuple[Ref, ...]
 
     def impossible(self, state: Partial, env: Env) -> bool:
@@ -87,15 +88,17 @@ def compiled(row: Row) -> CompiledRow:
 
 def _compile(row: Row) -> CompiledRow:
     conditions = [conjunct.condition for conjunct in row.guard]
-    guard_cells = tuple(sorted({p for c in conditions for p in patterns(c)}, key=str))
+    needs = {p for c in conditions for p in patterns(c)}
+    read = needs | {p for a in row.assigns for p in _reads(a)}
     written = [(a.variable, tuple(arg.name for arg in a.args if isinstance(arg, Ref))) for a in row.assigns]
     return CompiledRow(
         row=row,
         tests=tuple(map(truth, conditions)),
         guard=tuple(narrowing(c, True) for c in conditions),
         assigns=tuple(map(_assign, row.assigns)),
-        guard_cells=guard_cells,
-        cells=tuple(sorted({*guard_cells, *written, *(p for a in row.assigns for p in _reads(a))}, key=str)),
+        needs=tuple(sorted(needs, key=str)),
+        reads=tuple(sorted(read, key=str)),
+        writes=tuple(sorted(set(written), key=str)),
         chosen=tuple(c for c in row.choices if isinstance(c, Ref) and isinstance(c.of, ElementSort)),
     )
 

@@ -17,7 +17,7 @@ from mmsverify.concrete.belief.compiled import compiled
 from mmsverify.concrete.belief.constraints import Conflict, Constraints
 from mmsverify.concrete.belief.horizon import Reach, drifted, reach
 from mmsverify.concrete.belief.partial import DECIDED, OTHER, Partial, distinct
-from mmsverify.concrete.belief.patterns import Pattern, at, touches
+from mmsverify.concrete.belief.patterns import Pattern, at, overlap, touches
 from mmsverify.concrete.belief.truth import Env
 from mmsverify.concrete.belief.values import NO, YES, join
 from mmsverify.model.model import ModelData
@@ -40,13 +40,14 @@ LARGEST_MEMO = 20000
 class Firing:
     """An internal row with names and truth values for its parameters; it fires once for the names in ``tag``.
 
-    ``needs`` are the cells that its guard reads.
+    ``needs`` are the cells that its guard reads, ``cells`` all that it reads or writes.
     """
 
     row: Row
     tag: Tag
     env: Env
     needs: frozenset[Pattern]
+    cells: frozenset[Pattern]
 
 
 class Goal:
@@ -56,7 +57,17 @@ class Goal:
         self.env = env
         self.rows = [compiled(row) for row in rows]
         self.key = (rows[0].id if rows else "", rows[0].answer if rows else "", frozenset(env.items()))
-        self.cells = at({cell for row in self.rows for cell in row.cells}, env)
+        self.reads = at({cell for row in self.rows for cell in row.reads}, env)
+        self.writes = at({cell for row in self.rows for cell in row.writes}, env)
+
+    def beside(self, outstanding: Mapping[str, Outstanding]) -> Goal:
+        """The same event beside requests that may be performed before it: what they touch matters, too."""
+        wider = Goal([], self.env)
+        wider.rows, wider.reads, wider.writes = self.rows, self.reads, self.writes
+        for request in outstanding.values():
+            wider.reads |= request.reads
+            wider.writes |= request.writes
+        return wider
 
     def impossible(self, state: Partial) -> bool:
         """Whether the state certainly contradicts it."""
@@ -70,6 +81,16 @@ class Outstanding:
     slot: str
     rows: tuple[Row, ...]
     env: Env
+
+    @property
+    def reads(self) -> frozenset[Pattern]:
+        """The cells that performing it may read."""
+        return at({cell for row in self.rows for cell in compiled(row).reads}, self.env)
+
+    @property
+    def writes(self) -> frozenset[Pattern]:
+        """The cells that performing it may write."""
+        return at({cell for row in self.rows for cell in compiled(row).writes}, self.env)
 
 
 def decided(state: Partial, slot: str) -> str | None:
@@ -134,7 +155,9 @@ class Unseen:
         self, start: Partial, evidence: Evidence, outstanding: Mapping[str, Outstanding], goal: Goal
     ) -> list[Partial]:
         firings = self._firings(start, evidence)
-        if not outstanding:
+        if outstanding:
+            goal = goal.beside({slot: o for slot, o in outstanding.items() if self._early(o, goal)})
+        else:
             firings = self._useful(start, firings, goal)
         horizon = None if outstanding else self._horizon(start, firings)
         level: list[Reached] = [(start, frozenset())]
@@ -180,9 +203,7 @@ class Unseen:
 
     def _firings(self, state: Partial, evidence: Evidence) -> list[Firing]:
         return [
-            Firing(row, tag, env, at(compiled(row).guard_cells, env))
-            for row in self._rows[evidence]
-            for tag, env in self._bindings(row, state)
+            _firing(row, tag, env) for row in self._rows[evidence] for tag, env in self._bindings(row, state)
         ]
 
     def _useful(self, state: Partial, firings: Sequence[Firing], goal: Goal) -> list[Firing]:
@@ -221,27 +242,32 @@ class Unseen:
             ):
                 continue
             for after in take(firing.row, state, firing.env, self.constraints)[0]:
-                if outstanding or self._matters(firing, state, after, firings, goal):
+                if self._matters(firing, state, after, firings, goal):
                     yield firing.tag, after
         if PANEL not in fired and self._panel and state.get(("local_control", ())) == YES:
             forgotten = self.constraints.everywhere(state.forget(self._panel))
             if not isinstance(forgotten, Conflict):
                 yield (PANEL, ()), forgotten
         for request in outstanding.values():
-            yield from self._performed(request, state)
+            if self._early(request, goal):
+                yield from self._performed(request, state)
 
     def _matters(
         self, firing: Firing, state: Partial, after: Partial, firings: Sequence[Firing], goal: Goal
     ) -> bool:
         """Whether a firing matters to the goal; one that does not can as well fire after the event.
 
-        It matters if the goal reads what it changed or may take away what it needs, or if it makes another
-        firing possible.
+        It matters if the goal reads what it changed or needs, or may write what it touches, or if it makes
+        another firing possible.
         """
         keys = changed(state, after)
         if not keys:
             return False
-        if touches(goal.cells, keys) or any(_overlap(goal.cells, need) for need in firing.needs):
+        if (
+            touches(goal.reads, keys)
+            or overlap(goal.reads, firing.needs)
+            or overlap(goal.writes, firing.cells)
+        ):
             return True
         return any(
             touches(other.needs, keys)
@@ -249,6 +275,10 @@ class Unseen:
             and possible(other.row, after, other.env)
             for other in firings
         )
+
+    def _early(self, request: Outstanding, goal: Goal) -> bool:
+        """Whether it matters that a request is performed before the event, and not after it."""
+        return overlap(request.writes, goal.reads) or overlap(goal.writes, request.reads | request.writes)
 
     def _performed(self, request: Outstanding, state: Partial) -> Iterator[tuple[Tag, Partial]]:
         """A request may be performed at any instant before its response."""
@@ -278,14 +308,11 @@ class Unseen:
             yield tag, dict(zip((name for name, _ in ranged), values, strict=True))
 
 
-def _overlap(cells: frozenset[Pattern], need: Pattern) -> bool:
-    variable, names = need
-    return any(
-        other == variable and all(a is None or b is None or a == b for a, b in zip(args, names, strict=True))
-        for other, args in cells
-    )
-
-
 def _covers(old: Reached, new: Reached) -> bool:
     """Whether what may follow from ``new`` may follow from ``old``: it allows as much, and less has fired."""
     return old[1] <= new[1] and old[0].covers(new[0])
+
+
+def _firing(row: Row, tag: Tag, env: Env) -> Firing:
+    ready = compiled(row)
+    return Firing(row, tag, env, at(ready.needs, env), at({*ready.reads, *ready.writes}, env))

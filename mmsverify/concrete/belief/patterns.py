@@ -45,3 +45,15 @@ def touches(patterns: Iterable[Pattern], keys: Iterable[Key]) -> bool:
         for variable, names in keys
         for args in by_variable.get(variable, ())
     )
+
+
+def overlap(left: Iterable[Pattern], right: Iterable[Pattern]) -> bool:
+    """Whether some cell may be among both."""
+    by_variable: dict[str, list[tuple[str | None, ...]]] = {}
+    for variable, args in left:
+        by_variable.setdefault(variable, []).append(args)
+    return any(
+        all(a is None or b is None or a == b for a, b in zip(mine, args, strict=True))
+        for variable, args in right
+        for mine in by_variable.get(variable, ())
+    )
