@@ -54,7 +54,7 @@ class UsageError(MmsverifyError):
 class DecodeError(MmsverifyError):
     """Octets that are not what their channel says.
 
-    ``offset`` counts octets from the start of the message; ``path`` is the chain of field names leading there.
+    ``offset`` counts octets from the start of the message; ``path`` is the chain of names leading there.
     """
 
     code = "decode"

@@ -42,7 +42,7 @@ class Finding:
 
 @dataclass(frozen=True, slots=True)
 class AuditedInput:
-    """How an input was read: ``messages`` of all channels, ``events`` that a model judged, ``skipped`` ones."""
+    """How an input was read: ``messages`` of any channel, ``events`` that a model judged, ``skipped``."""
 
     path: str
     messages: int

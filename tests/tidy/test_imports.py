@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from sources import (
     PACKAGE,
+    ROOT,
     imported_parts,
     imports,
     module_name,
@@ -151,6 +152,8 @@ def test_imports_are_absolute() -> None:
 
 def test_every_module_is_used() -> None:
     used = {name for path in python_files() for name in imports(path) if name != module_name(path)}
+    notebooks = "".join(path.read_text(encoding="utf-8") for path in ROOT.glob("notebooks/*.ipynb"))
+    used |= {module for module in modules() if f"from {module} import" in notebooks}
     packages = {module.rpartition(".")[0] for module in modules()}
     started = {module for module in modules() if module.endswith(".__main__")}
     assert sorted(modules() - used - packages - started) == []
