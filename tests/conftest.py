@@ -1,7 +1,7 @@
 """Puts this folder on the import path, so that tests of every kind can share what lies here.
 
-In CI the random tests draw the same examples each time: a change is judged by what it changes. Elsewhere they keep
-searching.
+In CI the random tests draw the same examples each time: a change is judged by what it changes. Elsewhere they
+keep searching.
 """
 
 import os
