@@ -32,6 +32,7 @@ History = frozenset[Tag]
 Reached = tuple[Partial, History]
 
 PANEL = "panel"
+CONTROL: Pattern = ("local_control", ())
 LARGEST = 4000
 LARGEST_MEMO = 20000
 
@@ -155,6 +156,9 @@ class Unseen:
         self, start: Partial, evidence: Evidence, outstanding: Mapping[str, Outstanding], goal: Goal
     ) -> list[Partial]:
         firings = self._firings(start, evidence)
+        if not overlap(goal.reads, [CONTROL]):
+            # Local control was TRUE only where the recording shows it (RP-18): it does not come and go unseen.
+            firings = [firing for firing in firings if CONTROL[0] not in firing.row.writes]
         if outstanding:
             goal = goal.beside({slot: o for slot, o in outstanding.items() if self._early(o, goal)})
         else:
