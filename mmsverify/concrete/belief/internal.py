@@ -174,7 +174,8 @@ class Unseen:
                         found.append((after, history | {tag}))
             level = [new for new in self._joined(found) if not any(_covers(old, new) for old in seen)]
             seen += level
-        return distinct([*(state for state, _ in seen), *(self._anything(start, firings) if level else ())])
+        unbounded = self._anything(start, firings) if level else []
+        return distinct([*(state for state, _ in seen), *unbounded])
 
     def _anything(self, state: Partial, firings: Sequence[Firing]) -> list[Partial]:
         """Too much may have happened to follow it step by step: nothing is known of what it could change."""
