@@ -157,7 +157,7 @@ class Unseen:
     ) -> list[Partial]:
         firings = self._firings(start, evidence)
         if not overlap(goal.reads, [CONTROL]):
-            # Local control was TRUE only where the recording shows it (RP-18): it does not come and go unseen.
+            # RP-18: local control was TRUE only where the recording shows it; it does not come and go unseen.
             firings = [firing for firing in firings if CONTROL[0] not in firing.row.writes]
         if outstanding:
             goal = goal.beside({slot: o for slot, o in outstanding.items() if self._early(o, goal)})
