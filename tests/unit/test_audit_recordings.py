@@ -69,9 +69,8 @@ def test_a_gap_forgets_what_was_known(listen: Listen) -> None:
 
 def test_a_refusal_that_nothing_explains_is_a_warning(listen: Listen) -> None:
     made = cell()
-    for _ in range(2):
-        made.status("robot-idle")
-        made.calibration("idle")
+    made.calibration("idle")
+    made.status("robot-idle")  # last: an emergency stop could still hide before any other evidence (RP-18)
     made.is_refused("start", "R_CAL", CONFLICT, "idle")
     (found,) = listen(made.recording).findings
     assert (found.rule, found.severity) == ("start.refused", "warning")
