@@ -12,7 +12,7 @@ from mmsverify.auditing import audit_traces
 from mmsverify.formats.mms import Pdu
 from mmsverify.results import Audit
 from mmsverify.samples import pdus
-from mmsverify.samples.cell import ARM, CONFLICT, OFFERED, ROBOT_ADDITIONAL, Cell
+from mmsverify.samples.cell import ARM, OFFERED, ROBOT_ADDITIONAL, Cell
 from mmsverify.samples.pdus import controlled, controlling, initiation
 from mmsverify.samples.recording import Recording
 
@@ -69,11 +69,12 @@ def test_a_gap_forgets_what_was_known(listen: Listen) -> None:
 
 def test_a_refusal_that_nothing_explains_is_a_warning(listen: Listen) -> None:
     made = cell()
-    made.calibration("idle")
-    made.status("robot-idle")  # last: an emergency stop could still hide before any other evidence (RP-18)
-    made.is_refused("start", "R_CAL", CONFLICT, "idle")
+    made.status("robot-idle")
+    asked = made.ask("vMDStop", None, None)
+    refusal = Pdu("confirmed-ErrorPDU", asked, body={"serviceError": {"errorClass": ("service", 2)}})
+    made.recording.say(made.name, "server", refusal)
     (found,) = listen(made.recording).findings
-    assert (found.rule, found.severity) == ("start.refused", "warning")
+    assert (found.rule, found.severity) == ("vMDStop.refused", "warning")
 
 
 def test_a_refusal_for_want_of_resources_needs_no_explanation(listen: Listen) -> None:
