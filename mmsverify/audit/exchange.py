@@ -9,21 +9,13 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
+from mmsverify.audit.rules import Breach
 from mmsverify.audit.words import title
 from mmsverify.formats.mms import Pdu, bits
 
 OTHER_SIDE = {"client": "server", "server": "client"}
 ADDITIONAL = frozenset({"vMDStop", "vMDReset", "select", "alterPI"})
 ANSWERS = frozenset({"confirmed-ResponsePDU", "confirmed-ErrorPDU"})
-
-
-@dataclass(frozen=True, slots=True)
-class Breach:
-    """A rule that a message breaks, with the words for its sentence, and the other messages that show it."""
-
-    rule: str
-    words: Mapping[str, Any] = field(default_factory=dict)
-    related: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,8 @@ import json
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from mmsverify.audit.device import Device, Place
+from mmsverify.audit.device import Device
+from mmsverify.audit.telling import Place
 from mmsverify.concrete.belief import Belief
 from mmsverify.errors import DecodeError, UsageError
 from mmsverify.formats import mms

@@ -6,7 +6,8 @@ Each rule is data; the code that applies one names it by its id.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from typing import Any
 
 from mmsverify.model.rows import Clause
 from mmsverify.results import Severity
@@ -20,6 +21,19 @@ class Rule:
     clause: Clause
     severity: Severity
     says: str
+
+
+@dataclass(frozen=True, slots=True)
+class Breach:
+    """A rule that a message breaks, with the words for its sentence, and the other messages that show it.
+
+    ``clause`` is what the thing concerned rests on, where a rule is about many: cited before the rule's own.
+    """
+
+    rule: str
+    words: Mapping[str, Any] = field(default_factory=dict)
+    related: tuple[int, ...] = ()
+    clause: Clause | None = None
 
 
 def _rule(name: str, says: str, *cites: str, severity: Severity = "error") -> Rule:

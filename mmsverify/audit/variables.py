@@ -6,11 +6,11 @@ They are data, with one walk over it.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
-from mmsverify.audit.exchange import Breach
 from mmsverify.audit.robot import Call
+from mmsverify.audit.rules import Breach
 from mmsverify.model.rows import Clause
 
 
@@ -48,15 +48,7 @@ DOMAIN_SPECIFIC = frozenset(
 )
 
 
-@dataclass(frozen=True, slots=True)
-class VariableBreach:
-    """A breach of a variable's type or range, with the variable's own clause."""
-
-    breach: Breach
-    clause: Clause
-
-
-def judge(name: str, data: tuple[str, Any]) -> Iterator[VariableBreach]:
+def judge(name: str, data: tuple[str, Any]) -> Iterator[Breach]:
     """The breaches of one value that was read or reported.
 
     ``name`` has its domain before it where it belongs to one.
@@ -67,12 +59,10 @@ def judge(name: str, data: tuple[str, Any]) -> Iterator[VariableBreach]:
     clause = Clause.of(variable.clause, "R-6.3.8.2-1")
     kind, content = data
     if variable.array and kind != "array":
-        yield VariableBreach(
-            Breach("variable.type", {"variable": name, "kind": kind, "wanted": "array"}), clause
-        )
+        yield Breach("variable.type", {"variable": name, "kind": kind, "wanted": "array"}, clause=clause)
         return
     for item in content if variable.array else [data]:
-        yield from (VariableBreach(breach, clause) for breach in _item(name, variable, item))
+        yield from (replace(breach, clause=clause) for breach in _item(name, variable, item))
 
 
 def _standard(name: str) -> Variable | None:

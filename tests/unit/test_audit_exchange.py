@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from mmsverify.audit.exchange import Association, Breach
+from mmsverify.audit.exchange import Association
+from mmsverify.audit.rules import Breach
 from mmsverify.formats.mms import Pdu
 from mmsverify.samples.pdus import failure, initiation, request, response
 

@@ -1,0 +1,91 @@
+"""Findings of one device: from what a belief or a rule says to what the results hold.
+
+Who wrote a cell of the belief is kept here, so that a finding can point to it; what was told is not told
+again with every poll.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from mmsverify.audit.rules import RULES, Breach
+from mmsverify.audit.words import title
+from mmsverify.concrete.belief import Blame, Outcome
+from mmsverify.concrete.belief.partial import Key
+from mmsverify.formats.trace import TraceMessage
+from mmsverify.results import Finding
+
+WINDOW = 200
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where a finding belongs."""
+
+    path: str
+    vmd: str
+
+
+class Telling:
+    """What is told of one device, and what has been told of it."""
+
+    def __init__(self, place: Place) -> None:
+        self.place = place
+        self._writers: dict[Key, tuple[int, tuple[str, ...]]] = {}
+        self._recent: dict[tuple[Any, ...], int] = {}
+
+    def outcome(
+        self,
+        message: TraceMessage,
+        service: str,
+        answer: str,
+        outcome: Outcome,
+        related: tuple[int, ...] = (),
+    ) -> Iterator[Finding]:
+        """What the belief says of ``service`` with ``answer``; without an answer, of what a message shows."""
+        if outcome.blame is not None and not self._repeated(
+            message, outcome.blame, service if not answer else None
+        ):
+            yield self._finding(message, service, answer, outcome.blame, related)
+        for key in outcome.written:
+            made = outcome.clauses.get(key[0]) or self._writers.get(key, (0, ()))[1]
+            self._writers[key] = (message.index, made)
+
+    def _repeated(self, message: TraceMessage, blame: Blame, shown: str | None) -> bool:
+        """Whether it was told shortly before: a contradiction that every poll repeats is one finding."""
+        key = (blame.rule, blame.says, blame.clause, shown)
+        last = self._recent.get(key)
+        self._recent[key] = message.index
+        return shown is not None and last is not None and message.index - last <= WINDOW
+
+    def _finding(
+        self, message: TraceMessage, service: str, answer: str, blame: Blame, related: tuple[int, ...]
+    ) -> Finding:
+        wrote = [self._writers[key] for key in sorted(blame.reads) if key in self._writers]
+        writers = {index for index, _ in wrote}
+        # What a message contradicts was established by the step that last wrote it: that step is cited, too.
+        made = () if answer else tuple(clause for _, clauses in wrote for clause in clauses)
+        observed = f"{title(service)} answered {answer}" if answer else f"{title(service)} shows"
+        says = f"{observed}, but {blame.says}" if answer else f"{title(service)}: {blame.says}"
+        return Finding(
+            path=self.place.path, vmd=self.place.vmd,
+            index=message.index, time=message.time, topic=message.topic,
+            severity="error" if blame.level == "error" else "warning", rule=blame.rule,
+            clauses=tuple(dict.fromkeys((*blame.clause.ids, *made))), message=says,
+            expected=blame.expected, observed=answer or "shown", before=blame.before,
+            related=tuple(sorted(({*related, *writers}) - {message.index})), readings=blame.clause.readings,
+        )  # fmt: skip
+
+    def breach(self, message: TraceMessage, breach: Breach) -> Finding:
+        """The breach of a rule, as a finding."""
+        rule = RULES[breach.rule]
+        cited = breach.clause + rule.clause if breach.clause is not None else rule.clause
+        return Finding(
+            path=self.place.path, vmd=self.place.vmd,
+            index=message.index, time=message.time, topic=message.topic,
+            severity=rule.severity, rule=rule.id, clauses=cited.ids,
+            message=rule.says.format(**breach.words), expected=(), observed="",
+            related=breach.related, readings=cited.readings,
+        )  # fmt: skip
