@@ -16,6 +16,7 @@ import typer
 from mmsverify import __version__
 from mmsverify.commands.audit import audit
 from mmsverify.commands.check import check
+from mmsverify.commands.clauses import clauses
 from mmsverify.commands.diagram import diagram
 from mmsverify.commands.imports import import_
 from mmsverify.errors import MmsverifyError
@@ -41,6 +42,7 @@ app.command("check")(check)
 app.command("audit")(audit)
 app.command("import")(import_)
 app.command("diagram")(diagram)
+app.command("clauses")(clauses)
 
 
 def _version(wanted: bool) -> None:

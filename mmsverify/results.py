@@ -99,3 +99,74 @@ class ModelCheck:
     variant: str
     verdicts: Sequence[Verdict]
     notes: Sequence[str] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Statement:
+    """One statement of a standard, in the project's words: where it stands, its sort, how it can be checked.
+
+    One that cannot be checked has a ``reason`` of a closed vocabulary, with a sentence ``because``.
+    """
+
+    id: str
+    clause: str
+    kind: str
+    checks: tuple[str, ...]
+    says: str
+    reason: str
+    because: str
+    checkable: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Encoding:
+    """What encodes a statement: its kind (a row, a property, a rule), its name, the variants that have it."""
+
+    kind: str
+    name: str
+    variants: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Exercise:
+    """What exercises a statement: a ``test``, or a ``sample`` recording."""
+
+    by: str
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """A statement with everything that encodes and exercises it."""
+
+    statement: Statement
+    encoded: tuple[Encoding, ...]
+    exercised: tuple[Exercise, ...]
+
+    @property
+    def uncovered(self) -> bool:
+        """Whether it can be checked and is not: nothing encodes it, and no reason is given."""
+        return self.statement.checkable and not self.encoded and not self.statement.reason
+
+
+@dataclass(frozen=True, slots=True)
+class Mended:
+    """A declaration that differs from the text: which statements it mends, by which readings, and why."""
+
+    name: str
+    variant: str
+    readings: tuple[str, ...]
+    mends: tuple[str, ...]
+    because: str
+
+
+@dataclass(frozen=True, slots=True)
+class Register:
+    """The clause register of a model; ``unknown`` are ids that are cited and have no statement in it."""
+
+    model: str
+    standard: str
+    variants: tuple[str, ...]
+    entries: tuple[Entry, ...]
+    repairs: tuple[Mended, ...]
+    unknown: tuple[str, ...]

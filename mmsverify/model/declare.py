@@ -135,7 +135,8 @@ class Variable(Declared):
 
     ``Variable(Control, of=PI)`` is ``control[pi]``; without ``of`` it is one cell, written ``name[()]`` or
     ``name()``. ``rigid`` ones never change (what a profile fixes). ``initially`` gives the value at power-on
-    as a function of the arguments, or a literal; ``None`` leaves it open (see ``Initially``).
+    as a function of the arguments, or a literal; ``None`` leaves it open (see ``Initially``). ``cites`` are
+    the statements that the variable itself encodes: that there is such an attribute, with such values.
     """
 
     def __init__(
@@ -145,11 +146,13 @@ class Variable(Declared):
         *,
         rigid: bool = False,
         doc: str = "",
+        cites: Iterable[str] = (),
     ) -> None:
         self.of = of if isinstance(of, tuple) else (of,)
         self.value_sort = sort if isinstance(sort, Sort) else enumeration(sort)
         self.rigid = rigid
         self.doc = doc
+        self.cites = tuple(cites)
         self.place = caller()
 
     @property
@@ -170,9 +173,9 @@ class Variable(Declared):
         )
 
 
-def relation(*of: Each, rigid: bool = False, doc: str = "") -> Variable:
+def relation(*of: Each, rigid: bool = False, doc: str = "", cites: Iterable[str] = ()) -> Variable:
     """A relation between elements: a Boolean variable of its arguments."""
-    return Variable(BOOL, of, rigid=rigid, doc=doc)
+    return Variable(BOOL, of, rigid=rigid, doc=doc, cites=cites)
 
 
 Relation = relation
@@ -193,7 +196,13 @@ class Derived(Declared):
     """A definition: a name for an expression over the variables, never stored and never updated."""
 
     def __init__(
-        self, definition: Any, *, over: Iterable[Element] = (), repairs: object = None, doc: str = ""
+        self,
+        definition: Any,
+        *,
+        over: Iterable[Element] = (),
+        repairs: object = None,
+        doc: str = "",
+        cites: Iterable[str] = (),
     ) -> None:
         listed = tuple(over)
         self.parameters = tuple(e.ref for e in listed)
@@ -201,6 +210,7 @@ class Derived(Declared):
         self.definition: Expr = definition.expr
         self.repairs = repairs
         self.doc = doc
+        self.cites = tuple(cites)
         self.place = caller()
 
     def __getitem__(self, args: Any) -> Place:

@@ -19,16 +19,20 @@ from mmsverify.report import (
     audit_text,
     check_json,
     check_text,
+    clauses_json,
+    clauses_text,
     imports,
 )
-from mmsverify.results import Audit, ModelCheck
+from mmsverify.results import Audit, ModelCheck, Register
 
 __all__ = [
     "AUDIT_FORMATS",
     "CHECK_FORMATS",
+    "CLAUSES_FORMATS",
     "IMPORT_FORMATS",
     "render_audit",
     "render_check",
+    "render_clauses",
     "render_import",
     "require_format",
 ]
@@ -46,6 +50,11 @@ CHECK_FORMATS: Mapping[str, Callable[[Sequence[ModelCheck]], str]] = {
     "json": check_json.render,
 }
 
+CLAUSES_FORMATS: Mapping[str, Callable[..., str]] = {
+    "text": clauses_text.render,
+    "json": clauses_json.render,
+}
+
 IMPORT_FORMATS: Mapping[str, Callable[[Sequence[imports.Imported]], str]] = {
     "text": imports.render_text,
     "json": imports.render_json,
@@ -60,6 +69,11 @@ def render_audit(audit: Audit, format: str) -> str:
 def render_check(checks: Sequence[ModelCheck], format: str) -> str:
     """The verdicts in ``format``, a key of ``CHECK_FORMATS``; the text ends with a line feed."""
     return CHECK_FORMATS[require_format(format, CHECK_FORMATS)](checks)
+
+
+def render_clauses(registers: Sequence[Register], format: str, *, long: bool = False) -> str:
+    """The registers in ``format``, a key of ``CLAUSES_FORMATS``; ``long``: every statement in full."""
+    return CLAUSES_FORMATS[require_format(format, CLAUSES_FORMATS)](registers, long=long)
 
 
 def render_import(inputs: Sequence[imports.Imported], format: str) -> str:

@@ -47,6 +47,7 @@ ROOTS = {
     "auditing": ALLOWED.keys() - {"symbolic", "graph", "report"},
     "checking": ALLOWED.keys() - {"graph", "report"},
     "diagrams": ALLOWED.keys() - {"audit", "report"},
+    "register": ALLOWED.keys() - {"symbolic", "graph", "report"},
 }
 COMMAND_LINE = {"cli", "commands", "__main__"}
 

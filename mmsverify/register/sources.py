@@ -1,0 +1,34 @@
+"""Where citations are found beside a model's own declarations. A new table of rules is listed here, once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from mmsverify.audit.rules import RULES
+from mmsverify.audit.variables import VARIABLES
+from mmsverify.profiles import ENTRY, KEYS
+from mmsverify.register.citations import Cited, citations
+from mmsverify.register.grammar import of_modules
+from mmsverify.resources import asn1_dir
+
+TABLES: Mapping[str, tuple[tuple[str, Any], ...]] = {
+    "mms-robot": (
+        ("rule", RULES),
+        ("standard variable", VARIABLES),
+        ("profile key", KEYS["mms-robot"]),
+        ("profile key", ENTRY),
+    ),
+}
+"""By model: what kind of thing each entry of a table is, and the table."""
+
+ASN1 = frozenset({"mms-robot"})
+"""Models of which the messages have ASN.1 modules."""
+
+
+def of_tables(model: str) -> Iterator[Cited]:
+    """What the tables and modules that belong to a model cite."""
+    for kind, table in TABLES.get(model, ()):
+        yield from ((kind, name, clause) for name, clause in citations(table, kind))
+    if model in ASN1:
+        yield from of_modules(asn1_dir())
