@@ -13,7 +13,7 @@ from mmsverify.concrete.belief.constraints import Conflict, Constraints
 from mmsverify.concrete.belief.partial import MARKS, Fact, Key, Partial
 from mmsverify.concrete.belief.patterns import touches
 from mmsverify.concrete.belief.truth import ABSENT, Env
-from mmsverify.concrete.belief.values import NO, YES, Known, join
+from mmsverify.concrete.belief.values import NO, YES, Known, join, within
 from mmsverify.model.rows import Clause, Conjunct, Row
 
 LARGEST_TABLE = 128
@@ -89,6 +89,19 @@ def _ready(
 def possible(row: Row, state: Partial, env: Env) -> bool:
     """Whether no single condition of the row's guard certainly fails: a quick test before taking it."""
     return not compiled(row).impossible(state, env)
+
+
+def idle(row: Row, state: Partial, env: Env) -> bool:
+    """Whether the row certainly leads to no state that ``state`` does not allow already."""
+    return all(within(known, state.get(key)) for key, known in _written(row, state, env).items())
+
+
+def maybe(row: Row, state: Partial, env: Env, constraints: Constraints) -> Partial:
+    """The state after the row, or as it is: it is not told whether the row was taken."""
+    if not idle(row, state, env):
+        for after in take(row, state, env, constraints)[0]:
+            state = state if state.covers(after) else state.joined(after)
+    return state
 
 
 def _plain(state: Partial) -> Partial:

@@ -42,15 +42,15 @@ class CompiledAssign:
 class CompiledRow:
     """A row's guard as truth tests and as narrowings, its updates, and the cells in its expressions.
 
-    ``chosen`` are the elements that the responder chooses and no event shows.
+    ``conditions`` are the cells that each conjunct reads, ``takes`` those that the updates read. ``chosen`` are the elements that the responder chooses and no event shows.
     """
 
     row: Row
     tests: tuple[Truth, ...]
     guard: tuple[Narrowing, ...]
     assigns: tuple[CompiledAssign, ...]
-    needs: tuple[Pattern, ...]
-    reads: tuple[Pattern, ...]
+    conditions: tuple[tuple[Pattern, ...], ...]
+    takes: tuple[Pattern, ...]
     writes: tuple[Pattern, ...]
     chosen: tuple[Ref, ...]
 
@@ -88,16 +88,15 @@ def compiled(row: Row) -> CompiledRow:
 
 def _compile(row: Row) -> CompiledRow:
     conditions = [conjunct.condition for conjunct in row.guard]
-    needs = {p for c in conditions for p in patterns(c)}
-    read = needs | {p for a in row.assigns for p in _reads(a)}
+    taken = {p for a in row.assigns for p in _reads(a)}
     written = [(a.variable, tuple(arg.name for arg in a.args if isinstance(arg, Ref))) for a in row.assigns]
     return CompiledRow(
         row=row,
         tests=tuple(map(truth, conditions)),
         guard=tuple(narrowing(c, True) for c in conditions),
         assigns=tuple(map(_assign, row.assigns)),
-        needs=tuple(sorted(needs, key=str)),
-        reads=tuple(sorted(read, key=str)),
+        conditions=tuple(tuple(patterns(c)) for c in conditions),
+        takes=tuple(sorted(taken, key=str)),
         writes=tuple(sorted(set(written), key=str)),
         chosen=tuple(c for c in row.choices if isinstance(c, Ref) and isinstance(c.of, ElementSort)),
     )

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from mmsverify.concrete.belief.partial import Partial
+from mmsverify.concrete.belief.partial import Key, Partial
 from mmsverify.concrete.belief.truth import value
 from mmsverify.concrete.belief.values import Known, everything, join
 from mmsverify.model.expr import Cell, Const, Expr, Ite, Ref
@@ -42,10 +42,16 @@ def _values(expr: Expr, target: Cell, env: dict[str, Any], blank: Partial) -> It
             yield everything(expr.sort)
 
 
-def drifted(state: Partial, within_reach: Reach) -> Partial:
-    """The state with every value still possible that its cells may yet take."""
-    cells = {
-        key: join(known, within_reach[key[0]]) if key[0] in within_reach else known
-        for key, known in state.cells.items()
-    }
-    return Partial(state.world, cells)
+class Drifting:
+    """A state with every value still possible that its cells may yet take, for whoever only reads it."""
+
+    __slots__ = ("_reach", "_state", "cells", "world")
+
+    def __init__(self, state: Partial, within_reach: Reach) -> None:
+        self.world, self.cells = state.world, state.cells
+        self._state, self._reach = state, within_reach
+
+    def get(self, key: Key) -> Known:
+        """What may yet be of a cell."""
+        known, more = self._state.get(key), self._reach.get(key[0])
+        return known if more is None else join(known, more)
