@@ -14,7 +14,8 @@ from typing import Any
 from mmsverify.concrete.belief.act import Refusal, take
 from mmsverify.concrete.belief.blame import Blame, before, blame
 from mmsverify.concrete.belief.constraints import Constraints
-from mmsverify.concrete.belief.internal import Goal, Outstanding, Unseen, decided, undecided
+from mmsverify.concrete.belief.goal import Goal
+from mmsverify.concrete.belief.internal import Outstanding, Unseen, decided, undecided
 from mmsverify.concrete.belief.narrow import narrowing
 from mmsverify.concrete.belief.partial import Key, Partial, World, distinct, widened, written
 from mmsverify.concrete.belief.resync import forced, learned_anew, sight_lost

@@ -42,7 +42,8 @@ class CompiledAssign:
 class CompiledRow:
     """A row's guard as truth tests and as narrowings, its updates, and the cells in its expressions.
 
-    ``conditions`` are the cells that each conjunct reads, ``takes`` those that the updates read. ``chosen`` are the elements that the responder chooses and no event shows.
+    ``conditions`` are the cells that each conjunct reads, ``takes`` those that the updates read. ``chosen``
+    are the elements that the responder chooses and no event shows.
     """
 
     row: Row

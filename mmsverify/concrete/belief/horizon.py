@@ -6,10 +6,9 @@ A state from which, for all that may still happen, the event cannot be, need not
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from typing import Any
 
 from mmsverify.concrete.belief.partial import Key, Partial
-from mmsverify.concrete.belief.truth import value
+from mmsverify.concrete.belief.truth import Env, value
 from mmsverify.concrete.belief.values import Known, everything, join
 from mmsverify.model.expr import Cell, Const, Expr, Ite, Ref
 from mmsverify.model.rows import Row
@@ -17,7 +16,7 @@ from mmsverify.model.rows import Row
 Reach = dict[str, Known]
 
 
-def reach(firings: Iterable[tuple[Row, dict[str, Any]]], blank: Partial) -> Reach:
+def reach(firings: Iterable[tuple[Row, Env]], blank: Partial) -> Reach:
     """For each variable that the rows write, the values that they may give it."""
     found: Reach = {}
     for row, env in firings:
@@ -28,7 +27,7 @@ def reach(firings: Iterable[tuple[Row, dict[str, Any]]], blank: Partial) -> Reac
     return found
 
 
-def _values(expr: Expr, target: Cell, env: dict[str, Any], blank: Partial) -> Iterator[Known]:
+def _values(expr: Expr, target: Cell, env: Env, blank: Partial) -> Iterator[Known]:
     """The values that an assignment may give its target, beyond what the target already has."""
     match expr:
         case Ite(_, then, otherwise):

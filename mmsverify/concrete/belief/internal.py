@@ -15,7 +15,7 @@ from typing import Any, Literal
 
 from mmsverify.concrete.belief.act import changed, idle, maybe, take
 from mmsverify.concrete.belief.constraints import Conflict, Constraints
-from mmsverify.concrete.belief.field import Field, History, Move, Tag, move
+from mmsverify.concrete.belief.field import Field, History, Move, move
 from mmsverify.concrete.belief.goal import NOTHING, Goal, Patterns, step
 from mmsverify.concrete.belief.horizon import Drifting, Reach, reach
 from mmsverify.concrete.belief.partial import DECIDED, OTHER, Partial, distinct
@@ -210,9 +210,7 @@ class Unseen:
         for row in rows:
             for names, envs in self._bindings(row).items():
                 steps = [step(row, env) for env in envs]
-                yield move(
-                    (row.name, names), steps, row.never_after, explains=row.explains == "observation"
-                )
+                yield move((row.name, names), steps, row.never_after, explains=row.explains == "observation")
 
     def _at_panel(self) -> Iterator[Move]:
         if self._panel:
@@ -239,7 +237,7 @@ class Unseen:
 
 
 def _blurred(state: Partial, beside: Sequence[Move], constraints: Constraints) -> Partial:
-    """The state after any of these moves, or none: what they may change is what it was or what they make it."""
+    """The state after any of these moves, or none: what they may change is as it was, or as they make it."""
     before = None
     rounds = 0
     while state is not before:
