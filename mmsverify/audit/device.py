@@ -84,10 +84,13 @@ class Device:
         try:
             pdu = mms.decode(message.data)
         except DecodeError as error:
-            yield self._telling.breach(message, Breach("protocol.undecodable", {"cause": str(error)}))
+            yield from self._telling.breach(message, Breach("protocol.undecodable", {"cause": str(error)}))
             return
         for found in self._judge(self._association(name), side, pdu, message):
-            yield self._telling.breach(message, found) if isinstance(found, Breach) else found
+            if isinstance(found, Breach):
+                yield from self._telling.breach(message, found)
+            else:
+                yield found
         self._notifications.note()
 
     def _judge(self, association: Association, side: str, pdu: Pdu, message: TraceMessage) -> Told:

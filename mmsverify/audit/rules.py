@@ -15,12 +15,16 @@ from mmsverify.results import Severity
 
 @dataclass(frozen=True, slots=True)
 class Rule:
-    """One rule: its id in findings, what it rests on, how bad a breach is, the sentence about it."""
+    """One rule: its id in findings, what it rests on, how bad a breach is, the sentence about it.
+
+    ``shown``: it is about something that every poll shows again.
+    """
 
     id: str
     clause: Clause
     severity: Severity
     says: str
+    shown: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +40,8 @@ class Breach:
     clause: Clause | None = None
 
 
-def _rule(name: str, says: str, *cites: str, severity: Severity = "error") -> Rule:
-    return Rule(name, Clause.of(*cites), severity, says)
+def _rule(name: str, says: str, *cites: str, severity: Severity = "error", shown: bool = False) -> Rule:
+    return Rule(name, Clause.of(*cites), severity, says, shown)
 
 
 _LISTED = (
@@ -119,8 +123,42 @@ _LISTED = (
         "RP-14",
         "RP-21",
     ),
-    _rule("variable.type", "{variable} is {kind}, not {wanted}", "R-8.1-1"),
-    _rule("variable.value", "{variable} is {value}, which is not among {wanted}", "R-8.1-1"),
+    _rule("variable.type", "{variable} is {found}, not {wanted}", "R-8.1-1", shown=True),
+    _rule("variable.value", "{variable} is {found}, not among {wanted}", "R-8.1-1", shown=True),
+    _rule("variable.written", "{variable} was written as {found}, but it is {wanted}", "R-8.1-1"),
+    _rule(
+        "variable.joints",
+        "{variable} tells of {count} joints, {other} of {joints}",
+        "R-8.5.5.1-1",
+        shown=True,
+    ),
+    _rule(
+        "variable.bounds",
+        "{variable} has the upper bound {upper} below the lower bound {lower}",
+        "R-6.2.2.8.2.4-1",
+        "R-8.5.5.5-1",
+        shown=True,
+    ),
+    # A joint may stand a little beyond its bounds, as after an overrun: worth knowing, forbidden to nobody.
+    _rule(
+        "variable.beyond-bounds",
+        "{variable} is {value}, beyond the bounds {lower} and {upper}",
+        "R-6.2.2.8.2.4-1",
+        "R-8.5.5.6-2",
+        severity="note",
+        shown=True,
+    ),
+    # That the values of one message were taken at one instant is not in the text.
+    _rule(
+        "variable.calibration",
+        "{variable} is {value}, but {joints} joints are calibrated",
+        "R-6.2.2.4-1",
+        "R-8.5.4.2-1",
+        "R-8.5.5.3-1",
+        "RP-22",
+        severity="warning",
+        shown=True,
+    ),
     _rule(
         "event.arm-running",
         "event condition R_ARM is notified, but the action result says that R_ARM is RUNNING",

@@ -24,6 +24,7 @@ class Showing:
         self._belief = belief
         self._telling = telling
         self._acquaintance = acquaintance
+        self._variables = variables.Variables()
 
     def answered(self, asked: Asked, pdu: Pdu, message: TraceMessage) -> Iterator[Finding | Breach]:
         """The positive answer to a service that changes nothing in the model."""
@@ -37,6 +38,8 @@ class Showing:
                     yield from self._shown(message, call.service, call, asked.slot)
             case "read":
                 yield from self.values(asked.pdu, pdu, message, asked.slot)
+            case "write":
+                yield from variables.written(asked.pdu.body, pdu.body)
 
     def refused(self, asked: Asked, pdu: Pdu, message: TraceMessage) -> Iterator[Finding]:
         """The negative answer to such a service: that an object is not there shows something, too."""
@@ -63,8 +66,9 @@ class Showing:
         self, request: Pdu, response: Pdu, message: TraceMessage, slot: str | None = None
     ) -> Iterator[Finding | Breach]:
         """The values of a Read, or of an InformationReport, which is both request and response."""
-        for name, data in robot.read_values(request, response):
-            yield from variables.judge(name, data)
+        values = list(robot.read_values(request, response))
+        yield from self._variables.judge(values, message.index)
+        for name, data in values:
             call = variables.shows(name, data)
             if call is not None:
                 yield from self._shown(message, "read", call, slot)

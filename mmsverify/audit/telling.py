@@ -34,7 +34,7 @@ class Telling:
     def __init__(self, place: Place) -> None:
         self.place = place
         self._writers: dict[Key, tuple[int, tuple[str, ...]]] = {}
-        self._recent: dict[tuple[Any, ...], int] = {}
+        self._recent: dict[Any, int] = {}
 
     def outcome(
         self,
@@ -45,20 +45,21 @@ class Telling:
         related: tuple[int, ...] = (),
     ) -> Iterator[Finding]:
         """What the belief says of ``service`` with ``answer``; without an answer, of what a message shows."""
-        if outcome.blame is not None and not self._repeated(
-            message, outcome.blame, service if not answer else None
+        blame = outcome.blame
+        shown = service if not answer else None
+        if blame is not None and not self._repeated(
+            message, (blame.rule, blame.says, blame.clause, shown), told_again=shown is None
         ):
-            yield self._finding(message, service, answer, outcome.blame, related)
+            yield self._finding(message, service, answer, blame, related)
         for key in outcome.written:
             made = outcome.clauses.get(key[0]) or self._writers.get(key, (0, ()))[1]
             self._writers[key] = (message.index, made)
 
-    def _repeated(self, message: TraceMessage, blame: Blame, shown: str | None) -> bool:
+    def _repeated(self, message: TraceMessage, key: Any, *, told_again: bool) -> bool:
         """Whether it was told shortly before: a contradiction that every poll repeats is one finding."""
-        key = (blame.rule, blame.says, blame.clause, shown)
         last = self._recent.get(key)
         self._recent[key] = message.index
-        return shown is not None and last is not None and message.index - last <= WINDOW
+        return not told_again and last is not None and message.index - last <= WINDOW
 
     def _finding(
         self, message: TraceMessage, service: str, answer: str, blame: Blame, related: tuple[int, ...]
@@ -78,14 +79,17 @@ class Telling:
             related=tuple(sorted(({*related, *writers}) - {message.index})), readings=blame.clause.readings,
         )  # fmt: skip
 
-    def breach(self, message: TraceMessage, breach: Breach) -> Finding:
-        """The breach of a rule, as a finding."""
+    def breach(self, message: TraceMessage, breach: Breach) -> Iterator[Finding]:
+        """The breach of a rule, as a finding; none where it has just been told."""
         rule = RULES[breach.rule]
+        said = rule.says.format(**breach.words)
+        if self._repeated(message, (rule.id, said), told_again=not rule.shown):
+            return
         cited = breach.clause + rule.clause if breach.clause is not None else rule.clause
-        return Finding(
+        yield Finding(
             path=self.place.path, vmd=self.place.vmd,
             index=message.index, time=message.time, topic=message.topic,
             severity=rule.severity, rule=rule.id, clauses=cited.ids,
-            message=rule.says.format(**breach.words), expected=(), observed="",
+            message=said, expected=(), observed="",
             related=breach.related, readings=cited.readings,
         )  # fmt: skip

@@ -1,88 +1,261 @@
-"""The standardized named variables of clause 8.5: types, ranges, and what they show of the state.
+"""The standardized types and named variables (8.4, 8.5): their shapes, and what they show of the state.
 
-They are data, with one walk over it.
+They are data, with one walk over it; `Variables` keeps what the values of one device must agree with.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass, replace
-from typing import Any
+import struct
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, Literal
 
 from mmsverify.audit.robot import Call
 from mmsverify.audit.rules import Breach
+from mmsverify.audit.shapes import (
+    BOOLEAN,
+    FLOAT,
+    SINGLE_FLOAT,
+    Array,
+    Misfit,
+    Named,
+    Scalar,
+    Shape,
+    Structure,
+    Value,
+    integer8,
+    misdescribed,
+    misfits,
+)
 from mmsverify.model.rows import Clause
+
+Scope = Literal["vmd", "domain", "either"]
+
+
+@dataclass(frozen=True, slots=True)
+class Type:
+    """A standardized named type; all belong to the VMD."""
+
+    clause: Clause
+    shape: Named
 
 
 @dataclass(frozen=True, slots=True)
 class Variable:
-    """A standardized variable: the kind of its Data, its range, whether it is an array by joints."""
+    """A standardized variable: what it rests on, its shape, and whether it belongs to the VMD or to a domain.
 
-    clause: str
-    kind: str
-    among: tuple[int, ...] = ()
-    array: bool = False
-
-
-_INTEGERS = ("integer", "unsigned")
-
-VARIABLES = {
-    "R_VPWR": Variable("R-8.5.3.1-1", "boolean"),
-    "R_VCAL": Variable("R-8.5.3.2-1", "boolean"),
-    "R_VLOCAL": Variable("R-8.5.3.3-1", "boolean"),
-    "R_VSAFEV": Variable("R-8.5.3.4-1", "boolean"),
-    "R_DPWR": Variable("R-8.5.4.1-1", "boolean"),
-    "R_DCAL": Variable("R-8.5.4.2-1", "integer", (0, 1, 2)),
-    "R_DLOCAL": Variable("R-8.5.4.3-1", "boolean"),
-    "R_NJ": Variable("R-8.5.5.1-1", "integer"),
-    "R_JT": Variable("R-8.5.5.2-1", "integer", (0, 1), array=True),
-    "R_JCAL": Variable("R-8.5.5.3-1", "boolean", array=True),
-    "R_JBK": Variable("R-8.5.5.4-1", "integer", (0, 1, 2), array=True),
-    "R_JBD": Variable("R-8.5.5.5-1", "structure", array=True),
-    "R_AJV": Variable("R-8.5.5.6-1", "floating-point", array=True),
-    "R_SF": Variable("R-8.5.5.13-1", "floating-point"),
-    "R_PSTU": Variable("R-8.5.5.14-1", "floating-point"),
-}
-DOMAIN_SPECIFIC = frozenset(
-    {"R_DPWR", "R_DCAL", "R_DLOCAL", "R_NJ", "R_JT", "R_JCAL", "R_JBK", "R_JBD", "R_AJV"}
-)
-
-
-def judge(name: str, data: tuple[str, Any]) -> Iterator[Breach]:
-    """The breaches of one value that was read or reported.
-
-    ``name`` has its domain before it where it belongs to one.
+    Where the standard does not say to what a variable belongs, either is taken for it.
     """
-    variable = _standard(name)
-    if variable is None:
-        return
-    clause = Clause.of(variable.clause, "R-6.3.8.2-1")
-    kind, content = data
-    if variable.array and kind != "array":
-        yield Breach("variable.type", {"variable": name, "kind": kind, "wanted": "array"}, clause=clause)
-        return
-    for item in content if variable.array else [data]:
-        yield from (replace(breach, clause=clause) for breach in _item(name, variable, item))
+
+    clause: Clause
+    shape: Shape
+    scope: Scope
 
 
-def _standard(name: str) -> Variable | None:
-    domain, _, item = name.rpartition("/")
-    return VARIABLES.get(item) if (item in DOMAIN_SPECIFIC) == bool(domain) else None
-
-
-def _item(name: str, variable: Variable, item: tuple[str, Any]) -> Iterator[Breach]:
-    kind, content = item
-    if kind != variable.kind and not (kind in _INTEGERS and variable.kind in _INTEGERS):
-        yield Breach("variable.type", {"variable": name, "kind": kind, "wanted": variable.kind})
-    elif variable.among and content not in variable.among:
-        yield Breach(
-            "variable.value",
-            {"variable": name, "value": content, "wanted": ", ".join(map(str, variable.among))},
+POSITION = Named("R_PIS", Array(SINGLE_FLOAT, 3))
+ORIENTATION = Named("R_OIS", Array(SINGLE_FLOAT, 4))
+POSE = Named("R_PSE", Structure((("R_PIS", POSITION), ("R_OIS", ORIENTATION))))
+END_EFFECTOR = Named(
+    "R_EEF",
+    Structure(
+        (
+            ("identifier", Scalar("objId")),
+            ("tool descriptor", Scalar("visible-string", size=80)),
+            ("TOOL-MICS", POSE),
+            ("user detail", Scalar("visible-string", size=512)),
         )
+    ),
+)
+BOUNDS = Structure((("upper bound", FLOAT), ("lower bound", FLOAT)))
+
+TYPES: Mapping[str, Type] = {
+    "R_PIS": Type(Clause.of("R-8.4.1-1"), POSITION),
+    "R_OIS": Type(Clause.of("R-8.4.2-1"), ORIENTATION),
+    "R_PSE": Type(Clause.of("R-8.4.3-1"), POSE),
+    "R_EEF": Type(Clause.of("R-8.4.4-1", "R-6.2.2.10-1"), END_EFFECTOR),
+}
 
 
-def shows(name: str, data: tuple[str, Any]) -> Call | None:
+def _variable(shape: Shape, scope: Scope, *cites: str) -> Variable:
+    return Variable(Clause.of(*cites, "R-6.3.8.2-1"), shape, scope)
+
+
+VARIABLES: Mapping[str, Variable] = {
+    "R_VPWR": _variable(BOOLEAN, "vmd", "R-8.5.3.1-1"),
+    "R_VCAL": _variable(BOOLEAN, "vmd", "R-8.5.3.2-1"),
+    "R_VLOCAL": _variable(BOOLEAN, "vmd", "R-8.5.3.3-1"),
+    "R_VSAFEV": _variable(BOOLEAN, "vmd", "R-8.5.3.4-1"),
+    "R_DPWR": _variable(BOOLEAN, "domain", "R-8.5.4.1-1", "R-6.2.1-7"),
+    "R_DCAL": _variable(integer8(0, 1, 2), "domain", "R-8.5.4.2-1", "R-6.2.1-7"),
+    "R_DLOCAL": _variable(BOOLEAN, "domain", "R-8.5.4.3-1", "R-6.2.1-7"),
+    "R_NJ": _variable(integer8(), "domain", "R-8.5.5.1-1", "R-6.2.2.6-1"),
+    "R_JT": _variable(Array(integer8(0, 1)), "domain", "R-8.5.5.2-1", "R-6.2.2.8.2.1-1"),
+    "R_JCAL": _variable(Array(BOOLEAN), "domain", "R-8.5.5.3-1"),
+    "R_JBK": _variable(Array(integer8(0, 1, 2)), "domain", "R-8.5.5.4-1", "R-6.2.2.8.2.3-1"),
+    "R_JBD": _variable(Array(BOUNDS), "domain", "R-8.5.5.5-1", "R-6.2.2.8.2.4-1"),
+    "R_AJV": _variable(Array(FLOAT), "domain", "R-8.5.5.6-1", "R-6.2.2.8.2.6-1"),
+    "R_TUB": _variable(POSE, "either", "R-8.5.5.7-1", "R-6.2.2.9.1-1"),
+    "R_TTM": _variable(POSE, "either", "R-8.5.5.8-1"),
+    "R_TBW": _variable(POSE, "either", "R-8.5.5.9-1", "R-6.2.2.7-1"),
+    "R_ATUP": _variable(POSE, "either", "R-8.5.5.10-1"),
+    "R_CTUP": _variable(POSE, "either", "R-8.5.5.11-1", "R-6.2.2.9.2-1"),
+    "R_AMBP": _variable(POSE, "either", "R-8.5.5.12-1"),
+    "R_SF": _variable(FLOAT, "either", "R-8.5.5.13-1", "R-6.2.2.9.3-1"),
+    "R_PSTU": _variable(FLOAT, "either", "R-8.5.5.14-1"),
+    "R_EEFU": _variable(END_EFFECTOR, "either", "R-8.5.5.15-1"),
+}
+BY_JOINT = frozenset({"R_JT", "R_JCAL", "R_JBK", "R_JBD", "R_AJV"})
+"""The arrays that have an element for each of the arm's R_NJ joints."""
+CALIBRATED = 0
+
+
+def standard(name: str) -> Variable | None:
+    """The standardized variable of that name, with its domain before it where it belongs to one."""
+    domain, _, item = name.rpartition("/")
+    variable = VARIABLES.get(item)
+    if variable is None or variable.scope == ("vmd" if domain else "domain"):
+        return None
+    return variable
+
+
+def shows(name: str, data: Value) -> Call | None:
     """What a standardized variable shows of the model's state."""
     if name == "R_VLOCAL" and data[0] == "boolean":
         return Call("R_VLOCAL", {"shown_local": data[1]})
     return None
+
+
+def _breach(name: str, variable: Variable, misfit: Misfit) -> Breach:
+    words = {"variable": f"{name}{misfit.part}", "found": misfit.found, "wanted": misfit.wanted}
+    rule = "variable.value" if misfit.value else "variable.type"
+    return Breach(rule, words, clause=cited(variable.clause, misfit))
+
+
+def cited(clause: Clause, misfit: Misfit) -> Clause:
+    """What a misfit breaks: the clause of the thing, and those of the standardized types around the part."""
+    for name in misfit.types:
+        clause = clause + TYPES[name].clause
+    return clause
+
+
+def written(request: Mapping[str, Any], response: Sequence[Value]) -> Iterator[Breach]:
+    """Values of a Write that the robot has accepted although they do not fit their variables."""
+    kind, content = request["variableAccessSpecification"]
+    if kind != "listOfVariable":
+        return
+    for listed, data, (result, _) in zip(content, request["listOfData"], response, strict=False):
+        name = _plain_name(listed)
+        variable = standard(name) if name else None
+        if variable is not None and result == "success":
+            for misfit in misfits(variable.shape, data):
+                words = {"variable": f"{name}{misfit.part}", "found": misfit.found, "wanted": misfit.wanted}
+                yield Breach("variable.written", words, clause=cited(variable.clause, misfit))
+
+
+def _plain_name(listed: Mapping[str, Any]) -> str:
+    """The name of a variable that is accessed as a whole, with its domain before it; else nothing."""
+    kind, named = listed["variableSpecification"]
+    if kind != "name" or "alternateAccess" in listed:
+        return ""
+    scope, name = named
+    return f"{name['domainId']}/{name['itemId']}" if scope == "domain-specific" else str(name)
+
+
+def described(name: str, specification: Value) -> Iterator[tuple[Clause, Misfit]]:
+    """Where a TypeSpecification differs from what the standard says of that variable."""
+    variable = standard(name)
+    if variable is not None:
+        for misfit in misdescribed(variable.shape, specification):
+            yield cited(variable.clause, misfit), misfit
+
+
+@dataclass(frozen=True, slots=True)
+class _Joints:
+    """How many joints an arm has, and the variable and the message that say so."""
+
+    count: int
+    variable: str
+    index: int
+
+
+@dataclass(slots=True)
+class Variables:
+    """The values of one device: what must agree from one message to the next, and within one."""
+
+    _joints: dict[str, _Joints] = field(default_factory=dict)
+    _bounds: dict[str, tuple[int, list[tuple[float, float]]]] = field(default_factory=dict)
+
+    def judge(self, values: Sequence[tuple[str, Value]], index: int) -> Iterator[Breach]:
+        """The breaches of the values of one message, by the variables' names."""
+        for name, data in values:
+            variable = standard(name)
+            if variable is not None:
+                wrong = [_breach(name, variable, misfit) for misfit in misfits(variable.shape, data)]
+                yield from wrong or self._agree(name, variable, data, index)
+        yield from _calibrations(dict(values))
+
+    def _agree(self, name: str, variable: Variable, data: Value, index: int) -> Iterator[Breach]:
+        """A value of the right shape against what others have said of the same arm."""
+        domain, _, item = name.rpartition("/")
+        if item == "R_NJ" or item in BY_JOINT:
+            told = _Joints(data[1] if item == "R_NJ" else len(data[1]), name, index)
+            yield from self._count(domain, variable, told)
+        if item == "R_JBD":
+            yield from self._bound(domain, name, data, index)
+        elif item == "R_AJV":
+            yield from self._travelled(domain, name, data)
+
+    def _count(self, domain: str, variable: Variable, told: _Joints) -> Iterator[Breach]:
+        known = self._joints.get(domain)
+        if known is None or told.variable.endswith("/R_NJ"):
+            self._joints[domain] = told
+        if known is not None and known.count != told.count:
+            other = standard(known.variable)
+            assert other is not None
+            words = {
+                "variable": told.variable,
+                "count": told.count,
+                "other": known.variable,
+                "joints": known.count,
+            }
+            yield Breach("variable.joints", words, (known.index,), variable.clause + other.clause)
+
+    def _bound(self, domain: str, name: str, data: Value, index: int) -> Iterator[Breach]:
+        bounds = [(_number(upper), _number(lower)) for _, (upper, lower) in data[1]]
+        self._bounds[domain] = index, bounds
+        for joint, (upper, lower) in enumerate(bounds):
+            if upper < lower:
+                yield Breach(
+                    "variable.bounds", {"variable": f"{name}[{joint}]", "upper": upper, "lower": lower}
+                )
+
+    def _travelled(self, domain: str, name: str, data: Value) -> Iterator[Breach]:
+        index, bounds = self._bounds.get(domain, (0, []))
+        for joint, (value, (upper, lower)) in enumerate(zip(map(_number, data[1]), bounds, strict=False)):
+            if lower <= upper and not lower <= value <= upper:
+                words = {"variable": f"{name}[{joint}]", "value": value, "lower": lower, "upper": upper}
+                yield Breach("variable.beyond-bounds", words, (index,))
+
+
+def _number(data: Value) -> float:
+    """A floating-point value of MMS: the width of its exponent, then IEEE 754."""
+    octets: bytes = data[1]
+    form = {5: ">f", 9: ">d"}.get(len(octets))
+    return float(struct.unpack(form, octets[1:])[0]) if form else float("nan")
+
+
+def _calibrations(values: Mapping[str, Value]) -> Iterator[Breach]:
+    """An arm is calibrated if and only if all its joints are (6.2.2.4), where one message shows both."""
+    for name, (kind, content) in values.items():
+        joints = values.get(name.replace("R_DCAL", "R_JCAL"))
+        if (
+            not name.endswith("/R_DCAL")
+            or joints is None
+            or joints[0] != "array"
+            or kind not in ("integer", "unsigned")
+        ):
+            continue
+        all_are = bool(joints[1]) and all(joint == ("boolean", True) for joint in joints[1])
+        if all_are != (content == CALIBRATED):
+            words = {"variable": name, "value": content, "joints": "all" if all_are else "not all"}
+            yield Breach("variable.calibration", words)

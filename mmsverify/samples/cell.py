@@ -14,7 +14,7 @@ from mmsverify.samples import pdus
 from mmsverify.samples.pdus import vmd
 from mmsverify.samples.recording import Association, Recording
 
-ARM, CALIBRATION = "R_ARM", "R_CAL"
+ARM, CALIBRATION, SAFETY = "R_ARM", "R_CAL", "R_SAFE"
 
 CLIENT_SERVICES = (
     "identify", "downloadSegment", "terminateDownloadSequence", "unsolicitedStatus", "informationReport",
@@ -87,8 +87,8 @@ class Cell(Association):
         gives = {
             "listOfCapabilities": [],
             "state": number("DomainState", state),
-            "mmsDeletable": name not in (ARM, CALIBRATION),
-            "sharable": False,
+            "mmsDeletable": name not in (ARM, CALIBRATION, SAFETY),
+            "sharable": name == ARM,
             "listOfProgramInvocations": used_by,
             "uploadInProgress": 0,
         }

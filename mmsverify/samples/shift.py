@@ -67,7 +67,7 @@ def calibration(cell: Cell) -> None:
     cell.status(IDLE)
     cell.read(("R_VCAL", ("boolean", True)))
     calibrated = ("array", [("boolean", True)] * 6)
-    cell.read((of_domain(ARM, "R_DCAL"), ("integer", 2)), (of_domain(ARM, "R_JCAL"), calibrated))
+    cell.read((of_domain(ARM, "R_DCAL"), ("integer", 0)), (of_domain(ARM, "R_JCAL"), calibrated))
 
 
 def loading(cell: Cell) -> None:
