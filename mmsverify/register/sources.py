@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from mmsverify.audit.rules import RULES
-from mmsverify.audit.variables import VARIABLES
+from mmsverify.audit.variables import TYPES, VARIABLES
 from mmsverify.profiles import ENTRY, KEYS
 from mmsverify.register.citations import Cited, citations
 from mmsverify.register.grammar import of_modules
@@ -15,6 +15,7 @@ from mmsverify.resources import asn1_dir
 TABLES: Mapping[str, tuple[tuple[str, Any], ...]] = {
     "mms-robot": (
         ("rule", RULES),
+        ("standard type", TYPES),
         ("standard variable", VARIABLES),
         ("profile key", KEYS["mms-robot"]),
         ("profile key", ENTRY),

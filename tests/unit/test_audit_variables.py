@@ -148,6 +148,19 @@ def test_standardized_names_carry_their_prefix() -> None:
     assert [name for name in (*VARIABLES, *TYPES) if not name.startswith("R_")] == []
 
 
+@pytest.mark.exercises("R-8.5.1-1")
+def test_actual_commanded_and_programmed_values_are_told_apart_by_their_names() -> None:
+    values = {name for name, variable in VARIABLES.items() if "R-8.5.1-1" in variable.clause.ids}
+    assert values == {name for name in VARIABLES if name[:3] in ("R_A", "R_C", "R_P")}
+
+
+@pytest.mark.exercises("R-8.5.1-2")
+def test_a_pose_of_one_system_in_another_is_named_by_their_letters() -> None:
+    named = {name for name, variable in VARIABLES.items() if "R-8.5.1-2" in variable.clause.ids}
+    assert named == {name for name in VARIABLES if name[:3] == "R_T" and set(name[3:]) <= set("TUBMW")}
+    assert {VARIABLES[name].shape for name in named} == {variables.POSE}
+
+
 @pytest.mark.parametrize("name", FITTING)
 def test_a_value_of_its_type_is_no_breach(name: str) -> None:
     assert judged((name, FITTING[name])) == []
