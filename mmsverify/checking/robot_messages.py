@@ -5,7 +5,7 @@ A step is what results print of it (``PathStep``); no model is looked up here, a
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from mmsverify.audit import words
@@ -52,7 +52,19 @@ def _asked(service: str, given: Arguments) -> tuple[Any, Any]:
             return given["pi"], None
         case "status":
             return False, None
+        case "read":
+            asked = [{"variableSpecification": ("name", _named(name))} for name in given["variables"]]
+            return {
+                "specificationWithResult": False,
+                "variableAccessSpecification": ("listOfVariable", asked),
+            }, None
     return None, None
+
+
+def _named(name: str) -> tuple[str, Any]:
+    """The name of a standardized variable; one of a domain has the domain before it."""
+    domain, _, item = name.rpartition("/")
+    return ("domain-specific", {"domainId": domain, "itemId": item}) if domain else ("vmd-specific", item)
 
 
 def _start(given: Arguments) -> tuple[str, Any] | None:
@@ -129,6 +141,18 @@ def robot_status(state: State) -> dict[str, Any]:
 def unsolicited_status(state: State) -> Pdu:
     """The robot tells a change of its status by itself (7.3.2.2)."""
     return Pdu("unconfirmed-PDU", None, "unsolicitedStatus", _status(state), robot_status(state))
+
+
+VARIABLES: Mapping[str, Callable[[State], tuple[str, Any]]] = {
+    "R_VLOCAL": lambda state: ("boolean", state["local_control"]),
+}
+"""The standardized variables that show something of the model's state (8.5), with their Data."""
+
+
+def values(invoke_id: int, names: Sequence[str], state: State) -> Pdu:
+    """What Read answers for standardized variables in this state."""
+    found = [("success", VARIABLES[name](state)) for name in names]
+    return Pdu("confirmed-ResponsePDU", invoke_id, "read", {"listOfAccessResult": found})
 
 
 def programs(state: State) -> list[str]:

@@ -1,0 +1,356 @@
+"""A robot that keeps the rules, and what a recording of its conversations holds: MMS PDUs and link events.
+
+It lives by the rows of the model, one step at a time, judged by the tree walk. What happens is a list of
+acts, so that a conversation can be cut down and told again: an act that is not possible any more is left out,
+and what remains is conforming by its making.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from mmsverify.audit import robot as adapter
+from mmsverify.checking import robot_messages as messages
+from mmsverify.checking.robot_trace import profile_of
+from mmsverify.concrete import Scope
+from mmsverify.concrete.evaluate import Valuation, step, within_bounds
+from mmsverify.concrete.trace_path import readable, readable_state
+from mmsverify.formats.mcap_write import TraceWriter
+from mmsverify.formats.mms import Pdu, decode, encode
+from mmsverify.formats.trace import Channel, LinkEvent, Sender
+from mmsverify.model import ModelData, Row
+from mmsverify.model.rows import PLUS
+from mmsverify.model.sorts import EnumSort
+from mmsverify.results import PathStep
+from mmsverify.samples import pdus
+from mmsverify.samples.cell import OFFERED, ROBOT_ADDITIONAL
+
+VMD = "robot"
+ARMS = frozenset({"R_ARM"})
+OUTSTANDING = 5
+BEGIN, PAUSE = 1_764_000_000_000_000_000, 10_000_000
+ASSOCIATING = {"initiate": "open", "release": "close"}
+"""Rows that answer to no confirmed request, and the act that performs each."""
+
+LOOKS = {
+    "status": ("status",),
+    "getProgramInvocationAttributes": ("getProgramInvocationAttributes", "noProgramInvocationAttributes"),
+    "read": ("R_VLOCAL",),
+}
+"""Services that show state, with the observations of the model that their answers are."""
+
+IN_REFUSALS = ("stateAfterFailure",)
+"""Observations that stand in the answers of other services."""
+
+
+@dataclass(frozen=True, slots=True)
+class Act:
+    """One thing that happens.
+
+    ``kind`` is ``open``, ``close``, ``reset``, ``ask``, ``perform``, ``answer``, ``happen``, ``tell``,
+    ``look`` or ``gap``; ``who`` an association or a request, ``what`` a service or a row.
+    """
+
+    kind: str
+    who: str = ""
+    what: str = ""
+    given: Mapping[str, Any] = field(default_factory=dict)
+
+    def __str__(self) -> str:
+        shown = " ".join(f"{k}={readable(v)}" for k, v in self.given.items() if v is not None)
+        return " ".join(part for part in (self.kind, self.who, self.what, shown) if part)
+
+
+@dataclass(frozen=True, slots=True)
+class Link:
+    """An event of a connection."""
+
+    connection: str
+    event: LinkEvent
+
+
+@dataclass(frozen=True, slots=True)
+class Said:
+    """A message on an association."""
+
+    association: str
+    sender: Sender
+    pdu: Pdu
+
+
+Message = Link | Said
+
+
+@dataclass
+class Pending:
+    """A request on its way, and its answer once the robot has decided."""
+
+    user: str
+    invoke_id: int
+    service: str
+    asked: Mapping[str, Any]
+    answer: Pdu | None = None
+
+
+class Talk:
+    """A conversation with one robot, from power-on."""
+
+    def __init__(self, model: ModelData, scope: Scope, start: Valuation) -> None:
+        self.model, self.scope = model, scope
+        self.state: Valuation = start
+        self.messages: list[Message] = []
+        self.pending: dict[str, Pending] = {}
+        self.open: list[str] = []
+        self.done: list[Act] = []
+        self.lost_from: int | None = None
+        self._ids: dict[str, int] = {}
+        self._start = start
+        self._rows: dict[tuple[str, str], list[Row]] = {}
+        for row in model.rows:
+            self._rows.setdefault((row.on.phase, row.on.service), []).append(row)
+
+    def rows(self, phase: str, service: str) -> list[Row]:
+        """The rows of one phase of one service."""
+        return self._rows.get((phase, service), [])
+
+    # What happens.
+
+    def do(self, act: Act) -> bool:
+        """Let it happen if it can; connections neither come nor go while messages are lost."""
+        if self.lost_from is not None and act.kind in ("open", "close", "reset"):
+            return False
+        happened = bool(getattr(self, f"_{act.kind}")(act))
+        if happened:
+            self.done.append(act)
+        return happened
+
+    def takes(self, row: Row, bindings: Mapping[str, Any]) -> Valuation | None:
+        """The state after the row, if it can be taken now."""
+        after = step(row, bindings, self.state, self.scope)
+        return after if after is not None and within_bounds(self.model, self.scope, after) else None
+
+    def _take(self, row: Row, bindings: Mapping[str, Any]) -> bool:
+        after = self.takes(row, bindings)
+        if after is None:
+            return False
+        self.state = after
+        return True
+
+    def _open(self, act: Act) -> bool:
+        (row,) = (row for row in self.rows("response", "initiate") if row.answer == PLUS)
+        if act.who in self.open or not self._take(row, {"user": act.who, **act.given}):
+            return False
+        self.open.append(act.who)
+        self.messages.append(Link(act.who, "open"))
+        self._say(act.who, "client", pdus.initiation("Request", OFFERED["client"], (), OUTSTANDING))
+        agreed = pdus.initiation("Response", OFFERED["server"], ROBOT_ADDITIONAL, OUTSTANDING)
+        self._say(act.who, "server", agreed)
+        return True
+
+    def _close(self, act: Act) -> bool:
+        """Conclude; all requests have been answered."""
+        if any(p.user == act.who for p in self.pending.values()) or not self._released(act):
+            return False
+        self._say(act.who, "client", Pdu("conclude-RequestPDU"))
+        self._say(act.who, "server", Pdu("conclude-ResponsePDU"))
+        self.messages.append(Link(act.who, "close"))
+        return True
+
+    def _reset(self, act: Act) -> bool:
+        """The connection is lost, and with it what was asked."""
+        if not self._released(act):
+            return False
+        self.pending = {slot: p for slot, p in self.pending.items() if p.user != act.who}
+        self.messages.append(Link(act.who, "reset"))
+        return True
+
+    def _released(self, act: Act) -> bool:
+        (row,) = self.rows("response", "release")
+        if act.who not in self.open or not self._take(row, {"user": act.who, **act.given}):
+            return False
+        self.open.remove(act.who)
+        return True
+
+    def _ask(self, act: Act) -> bool:
+        """A request arrives; its indication takes effect where the model has one that applies."""
+        user, slot = str(act.given["user"]), act.who
+        if user not in self.open or slot in self.pending:
+            return False
+        invoke_id = self._id(user)
+        given = {name: readable(held) for name, held in act.given.items()}
+        asked = decode(encode(messages.request(invoke_id, act.what, given)))
+        self._say(user, "client", asked)
+        call = adapter.performed(asked, ARMS)
+        bindings = {"request": slot, "user": user, **(call.bindings if call else act.given)}
+        for row in self.rows("indication", act.what):
+            if self._take(row, self.bindings(row, bindings)):
+                break
+        self.pending[slot] = Pending(user, invoke_id, act.what, bindings)
+        return True
+
+    def bindings(self, row: Row, known: Mapping[str, Any]) -> dict[str, Any]:
+        """The parameters of a row that are known, as values of the model."""
+        found = {}
+        for parameter in row.parameters:
+            if parameter.name in known:
+                given = known[parameter.name]
+                if isinstance(parameter.of, EnumSort) and isinstance(given, str):
+                    given = next(m for m in parameter.of.members if given in (m.value, m.name))
+                found[parameter.name] = given
+        return found
+
+    def _perform(self, act: Act) -> bool:
+        """The robot decides and acts by the row ``what``; nothing shows it yet."""
+        request = self.pending.get(act.who)
+        if request is None or request.answer is not None:
+            return False
+        if request.service in LOOKS:
+            request.answer = self._looked(request)
+            return True
+        row = next((r for r in self.rows("response", request.service) if row_name(r) == act.what), None)
+        if row is None or not self._take(row, {**act.given, **self.bindings(row, request.asked)}):
+            return False
+        said = {name: readable(held) for name, held in request.asked.items()}
+        request.answer = messages.answer(request.invoke_id, request.service, said, row.answer, self.shown())
+        return True
+
+    def _answer(self, act: Act) -> bool:
+        request = self.pending.get(act.who)
+        if request is None or request.answer is None:
+            return False
+        del self.pending[act.who]
+        self._say(request.user, "server", request.answer)
+        return True
+
+    def _happen(self, act: Act) -> bool:
+        """A step that no message shows; what explains an observed state only is observed at once."""
+        row = next((r for r in self.model.actions if row_name(r) == act.what), None)
+        before = dict(self.sights()) if row is not None and row.explains != "any" else {}
+        if row is None or not self._take(row, act.given):
+            return False
+        now = dict(self.sights()) if before else {}
+        for view, sight in before.items():
+            if now[view] != sight:
+                self._look(Act("look", self.open[0], view[0], dict(view[1])))
+        return True
+
+    def _tell(self, act: Act) -> bool:
+        """The robot tells its status unasked."""
+        if act.who not in self.open:
+            return False
+        self._say(act.who, "server", messages.unsolicited_status(self.shown()))
+        return True
+
+    def _gap(self, act: Act) -> bool:
+        """Messages are lost from here (``what`` is ``begin``) to there, on all connections."""
+        if (act.what == "begin") is (self.lost_from is not None):
+            return False
+        if self.lost_from is None:
+            self.lost_from = len(self.messages)
+            return True
+        del self.messages[self.lost_from :]
+        self.messages += [Link(user, "gap") for user in self.open]
+        self.lost_from = None
+        return True
+
+    # What is seen.
+
+    def _look(self, act: Act) -> bool:
+        """State is asked for and shown at once."""
+        if act.who not in self.open:
+            return False
+        request = Pending(act.who, self._id(act.who), act.what, act.given)
+        self._say(act.who, "client", messages.request(request.invoke_id, act.what, act.given))
+        self._say(act.who, "server", self._looked(request))
+        return True
+
+    def sights(self) -> Iterator[tuple[tuple[str, tuple[tuple[str, Any], ...]], Pdu]]:
+        """What each view shows now."""
+        for service, given in self.views():
+            view = service, tuple(given.items())
+            yield view, self._looked(Pending("", 0, service, given))
+
+    def views(self) -> Iterator[tuple[str, dict[str, Any]]]:
+        """Every request that shows something of the state."""
+        yield "status", {}
+        for name in self.scope.elements["PI"]:
+            yield "getProgramInvocationAttributes", {"pi": name}
+        yield "read", {"variables": tuple(sorted(messages.VARIABLES))}
+
+    def _looked(self, request: Pending) -> Pdu:
+        shown, invoke_id = self.shown(), request.invoke_id
+        if request.service == "getProgramInvocationAttributes":
+            return messages.attributes(invoke_id, request.asked["pi"], shown)
+        if request.service == "read":
+            return messages.values(invoke_id, request.asked["variables"], shown)
+        return messages.answer(invoke_id, request.service, {}, PLUS, shown)
+
+    def shown(self) -> dict[str, Any]:
+        """The state in the words of results."""
+        return readable_state(self.model, self.scope, self.state)
+
+    # The recording.
+
+    def _id(self, user: str) -> int:
+        self._ids[user] = self._ids.get(user, 0) + 1
+        return self._ids[user]
+
+    def _say(self, association: str, sender: Sender, pdu: Pdu) -> None:
+        self.messages.append(Said(association, sender, pdu))
+
+    def profile(self) -> dict[str, str]:
+        """What the recording says of the robot."""
+        shown = readable_state(self.model, self.scope, self._start, rigid=True)
+        return profile_of(PathStep("initially", {}, (), shown))
+
+    def write(self, path: Path, begin: int = 0) -> Path:
+        """The recording from message ``begin`` on."""
+        return write(path, self.profile(), self.messages[begin : self.lost_from])
+
+
+def write(path: Path, profile: Mapping[str, str], spoken: Iterable[Message]) -> Path:
+    """Messages as a recording of the device ``robot``."""
+    with TraceWriter(path) as trace:
+        trace.add_profile(profile)
+        for number, message in enumerate(spoken):
+            channel, data = _recorded(message)
+            trace.add(BEGIN + number * PAUSE, channel, data)
+    return path
+
+
+def _recorded(message: Message) -> tuple[Channel, bytes]:
+    if isinstance(message, Said):
+        return Channel.mms(VMD, message.association, message.sender), encode(message.pdu)
+    said = f'{{"connection": "{message.connection}", "event": "{message.event}", "role": "mms"}}'
+    return Channel.link(VMD), said.encode()
+
+
+def row_name(row: Row) -> str:
+    """A row's name in acts: rows of one step may answer differently."""
+    return f"{row.id} {row.answer}".strip()
+
+
+def retold(talk: Talk, acts: Sequence[Act]) -> Talk:
+    """The conversation in which these acts happen, as far as they can."""
+    made = Talk(talk.model, talk.scope, talk._start)
+    for act in acts:
+        made.do(act)
+    return made
+
+
+def shrunk(talk: Talk, fails: Callable[[Talk], bool]) -> Talk:
+    """A shorter conversation that still fails: stretches of acts are left out as long as it does."""
+    acts, size = list(talk.done), max(1, len(talk.done) // 2)
+    while size:
+        begin, left = 0, False
+        while begin < len(acts):
+            shorter = acts[:begin] + acts[begin + size :]
+            if fails(retold(talk, shorter)):
+                acts, left = shorter, True
+            else:
+                begin += size
+        size = size if left and size == 1 else size // 2
+    return retold(talk, acts)
