@@ -229,7 +229,7 @@ class Talk:
         """A step that no message shows; what explains an observed state only is observed at once."""
         row = next((r for r in self.model.actions if row_name(r) == act.what), None)
         before = dict(self.sights()) if row is not None and row.explains != "any" else {}
-        if row is None or not self._take(row, act.given):
+        if row is None or (row.explains != "any" and not self.open) or not self._take(row, act.given):
             return False
         now = dict(self.sights()) if before else {}
         for view, sight in before.items():
