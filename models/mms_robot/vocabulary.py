@@ -101,27 +101,34 @@ class Vocabulary(Model):
 
     # Program invocations (6.3.2).
     state = Variable(State, PI)
-    control = Variable(Control, PI)
+    control = Variable(Control, PI, cites=["R-6.3.2.2-1"])
     deletable = Relation(PI)
     reusable = Relation(PI)
     arm = Relation(PI, doc="bound to a domain that represents a robot arm")
-    controls = Relation(PI, PI, doc="controls[a, c]: the list of a names c (6.3.2.3)")
-    controller = Relation(PI, PI, doc="controller[c, a]: the reference of c names a (6.3.2.8)")
-    mode = Variable(Mode, PI)
-    cycles = Variable(integer(0), PI, doc="remaining cycle count (6.3.2.6)")
-    steps = Variable(integer(0), PI, doc="remaining step count (6.3.2.7)")
+    controls = Relation(PI, PI, doc="controls[a, c]: the list of a names c (6.3.2.3)",
+                        cites=["R-6.3.2-2", "R-6.3.1-1", "R-6.3.1-2", "R-6.3.2.2-4"])  # fmt: skip
+    controller = Relation(
+        PI, PI, doc="controller[c, a]: the reference of c names a (6.3.2.8)", cites=["R-6.3.2-4"]
+    )
+    mode = Variable(Mode, PI, cites=["R-6.3.2-2", "R-5.3.2-3"])
+    cycles = Variable(integer(0), PI, doc="remaining cycle count (6.3.2.6)", cites=["R-6.3.2-3", "R-5.3.2-1"])
+    steps = Variable(integer(0), PI, doc="remaining step count (6.3.2.7)", cites=["R-6.3.2-3", "R-5.3.2-1"])
 
     # The VMD (6.1.3) and the arm (6.2.2.5).
-    selected = Relation(PI, doc="at most one: the selected program invocation (6.1.3.2.6)")
-    motion = Relation(doc="motion enabled (3.2.2, 6.2.2.5)")
-    local_control = Relation(doc="some local agent holds control (3.2.1, 6.1.3.2.5)")
+    selected = Relation(
+        PI, doc="at most one: the selected program invocation (6.1.3.2.6)", cites=["R-6.1.3.1-6"]
+    )
+    motion = Relation(doc="motion enabled (3.2.2, 6.2.2.5)", cites=["R-6.2.2.5-1", "R-3.2.2-1"])
+    local_control = Relation(doc="some local agent holds control (3.2.1, 6.1.3.2.5)",
+                             cites=["R-6.1.3.1-5", "R-5.3.1.4-1"])  # fmt: skip
     logical = Variable(Logical)
     physical = Variable(Physical)
-    robot_state = Variable(RobotState, doc="as the text has it: a stored attribute that 6.3.5 and 7.4 change")
+    robot_state = Variable(RobotState, doc="as the text has it: a stored attribute that 6.3.5 and 7.4 change",
+                           cites=["R-6.1.3.1-2", "R-6.1.3.2.2-1"])  # fmt: skip
 
     # Associations, the semaphore R_CTRL (8.6.1), outstanding requests.
     associated = Relation(Client)
-    holder = Relation(Client, doc="owns the one token of R_CTRL")
+    holder = Relation(Client, doc="owns the one token of R_CTRL", cites=["R-8.6.1-1"])
     entered = Relation(
         Request, PI, doc="this request's indication brought the program invocation into its transient state"
     )

@@ -10,13 +10,14 @@ from pathlib import Path
 import pytest
 
 from mmsverify.register import REASONS, clause_registers
+from mmsverify.register.__main__ import tables
 from mmsverify.register.statements import IN_PART
 from mmsverify.results import Entry, Register
 
 ROOT = Path(__file__).resolve().parents[2]
 LITERAL = re.compile(r'"(R-[A-Za-z0-9.]+-[A-Za-z0-9]+)"')
 
-STILL_UNCOVERED = {"mms-robot": 295}
+STILL_UNCOVERED = {"mms-robot": 283}
 """How many checkable statements nothing encodes yet: a number that only goes down, and ends at nought."""
 
 
@@ -105,3 +106,11 @@ def test_the_statements_are_in_words_of_the_projects_own() -> None:
     assert [name for name, text in own.items() if text == handed[name]] == []
     close = [name for name, text in own.items() if SequenceMatcher(None, text, handed[name]).ratio() > 0.95]
     assert close == []
+
+
+@pytest.mark.xfail(
+    strict=False, reason="tests are being added: python -m mmsverify.register . renews the tables"
+)
+def test_the_tables_of_what_is_exercised_are_those_of_the_present_tests() -> None:
+    stale = [path.name for path, text in tables(ROOT).items() if path.read_text(encoding="utf-8") != text]
+    assert stale == [], "python -m mmsverify.register . renews them"

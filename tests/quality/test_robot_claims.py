@@ -51,6 +51,7 @@ def check(variant: str) -> ModelCheck:
 
 
 @pytest.mark.slow
+@pytest.mark.exercises(every="property")
 def test_repaired_keeps_every_claim_for_any_number_and_reaches_what_it_says() -> None:
     for verdict in check("repaired").verdicts:
         assert verdict.result == "proved", verdict
@@ -61,6 +62,7 @@ def test_repaired_keeps_every_claim_for_any_number_and_reaches_what_it_says() ->
 
 
 @pytest.mark.slow
+@pytest.mark.exercises(every="property")
 def test_as_written_breaks_the_known_claims_and_the_others_are_proved() -> None:
     verdicts = check("as-written").verdicts
     broken = {v.name: len(v.counterexample or ()) - 1 for v in verdicts if v.result == "violated"}
@@ -106,6 +108,7 @@ def test_every_robot_state_and_every_arrow_of_figure_8_is_asked_for(variant: str
 
 
 @pytest.mark.slow
+@pytest.mark.exercises(every="property")
 def test_the_proof_of_repaired_stands_when_it_is_read_anew_from_its_files(tmp_path: Path) -> None:
     paths = write_certificates("mms-robot", tmp_path)
     assert len(paths) > 100
