@@ -18,6 +18,7 @@ from mmsverify.commands.audit import audit
 from mmsverify.commands.check import check
 from mmsverify.commands.clauses import clauses
 from mmsverify.commands.diagram import diagram
+from mmsverify.commands.findings import findings
 from mmsverify.commands.imports import import_
 from mmsverify.errors import MmsverifyError
 from mmsverify.report.wording import printable
@@ -43,6 +44,7 @@ app.command("audit")(audit)
 app.command("import")(import_)
 app.command("diagram")(diagram)
 app.command("clauses")(clauses)
+app.command("findings")(findings)
 
 
 def _version(wanted: bool) -> None:

@@ -170,3 +170,68 @@ class Register:
     entries: tuple[Entry, ...]
     repairs: tuple[Mended, ...]
     unknown: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Mending:
+    """How the repaired reading mends a fault: the row or claim that differs, its reading and clauses, why."""
+
+    declaration: str
+    reading: str
+    clauses: tuple[str, ...]
+    because: str
+
+
+@dataclass(frozen=True, slots=True)
+class Breach:
+    """A procedure that breaks a property, by the shortest run found.
+
+    ``change`` is the case of it (``A -> B``) where a property has several, ``world`` what the profile of the
+    run predefines; ``steps`` starts with the initial state.
+    """
+
+    procedure: str
+    change: str
+    world: str
+    steps: tuple[PathStep, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """A property that the text breaks: by which procedures, what that means for a plant, what mends it.
+
+    ``open`` names procedures that may break it from states which no run that was looked at reaches;
+    ``mended`` tells what is known of the property in the repaired reading.
+    """
+
+    name: str
+    statement: str
+    clauses: tuple[str, ...]
+    consequence: str
+    breaches: tuple[Breach, ...]
+    open: tuple[str, ...]
+    mendings: tuple[Mending, ...]
+    mended: str
+
+
+@dataclass(frozen=True, slots=True)
+class Oddity:
+    """What the text says in vain or leaves open: a step never taken, a choice, an event without a rule."""
+
+    kind: Literal["unreachable", "contradiction", "gap", "choice"]
+    name: str
+    clauses: tuple[str, ...]
+    what: str
+
+
+@dataclass(frozen=True, slots=True)
+class Survey:
+    """The faults of a text, found by holding every property against every procedure."""
+
+    model: str
+    variant: str
+    standard: str
+    properties: int
+    procedures: int
+    faults: Sequence[Fault]
+    oddities: Sequence[Oddity]

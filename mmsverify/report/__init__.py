@@ -22,17 +22,21 @@ from mmsverify.report import (
     clauses_json,
     clauses_text,
     imports,
+    survey_json,
+    survey_text,
 )
-from mmsverify.results import Audit, ModelCheck, Register
+from mmsverify.results import Audit, ModelCheck, Register, Survey
 
 __all__ = [
     "AUDIT_FORMATS",
     "CHECK_FORMATS",
     "CLAUSES_FORMATS",
+    "FINDINGS_FORMATS",
     "IMPORT_FORMATS",
     "render_audit",
     "render_check",
     "render_clauses",
+    "render_findings",
     "render_import",
     "require_format",
 ]
@@ -55,6 +59,11 @@ CLAUSES_FORMATS: Mapping[str, Callable[..., str]] = {
     "json": clauses_json.render,
 }
 
+FINDINGS_FORMATS: Mapping[str, Callable[[Survey], str]] = {
+    "text": survey_text.render,
+    "json": survey_json.render,
+}
+
 IMPORT_FORMATS: Mapping[str, Callable[[Sequence[imports.Imported]], str]] = {
     "text": imports.render_text,
     "json": imports.render_json,
@@ -74,6 +83,11 @@ def render_check(checks: Sequence[ModelCheck], format: str) -> str:
 def render_clauses(registers: Sequence[Register], format: str, *, long: bool = False) -> str:
     """The registers in ``format``, a key of ``CLAUSES_FORMATS``; ``long``: every statement in full."""
     return CLAUSES_FORMATS[require_format(format, CLAUSES_FORMATS)](registers, long=long)
+
+
+def render_findings(survey: Survey, format: str) -> str:
+    """The faults of a text in ``format``, a key of ``FINDINGS_FORMATS``; the text ends with a line feed."""
+    return FINDINGS_FORMATS[require_format(format, FINDINGS_FORMATS)](survey)
 
 
 def render_import(inputs: Sequence[imports.Imported], format: str) -> str:

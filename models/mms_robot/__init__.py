@@ -5,6 +5,7 @@ that it mends and the reason. One file per clause group; the text and its repair
 """
 
 from .associations import Associations, AssociationsRepaired
+from .consequences import CONSEQUENCES
 from .execution import Execution
 from .execution_repaired import ExecutionRepaired
 from .figure8 import Figure8, Figure8Repaired
@@ -25,6 +26,7 @@ VIEWS = {"robot state": "robot_state", "program invocation": "state"}
 class AsWritten(
     Programs, Selection, Execution, Vmd, Associations, Observations, Properties, Services, Figure8,
     name="mms-robot", variant="as-written", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
+    consequences=CONSEQUENCES,
 ):  # fmt: skip
     """The text as it stands, faults included."""
 
@@ -33,5 +35,6 @@ class Repaired(
     ProgramsRepaired, SelectionRepaired, ExecutionRepaired, VmdRepaired, AssociationsRepaired, Observations,
     PropertiesRepaired, Services, Figure8Repaired,
     name="mms-robot", variant="repaired", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
+    consequences=CONSEQUENCES,
 ):  # fmt: skip
     """The reading that keeps its own rules."""

@@ -46,6 +46,7 @@ ALLOWED = {
 ROOTS = {
     "auditing": ALLOWED.keys() - {"symbolic", "graph", "report"},
     "checking": ALLOWED.keys() - {"graph", "report"},
+    "faults": ALLOWED.keys() - {"audit", "graph", "report"} | {"checking"},
     "diagrams": ALLOWED.keys() - {"audit", "report"},
     "register": ALLOWED.keys() - {"symbolic", "graph", "report"},
 }
