@@ -12,6 +12,7 @@ from typing import Any
 from mmsverify.audit.device import Device
 from mmsverify.audit.telling import Place
 from mmsverify.concrete.belief import Belief
+from mmsverify.concrete.belief.coverage import Coverage
 from mmsverify.errors import DecodeError, UsageError
 from mmsverify.formats import mms
 from mmsverify.formats.mcap import McapTrace
@@ -28,7 +29,8 @@ Tables = Mapping[str, Mapping[str, Any]]
 class Replay:
     """One recording under a profile.
 
-    ``messages``, ``events`` and ``skipped`` are counts, true once the run is over.
+    ``messages``, ``events`` and ``skipped`` are counts, true once the run is over; ``coverage`` is what the
+    events of each device have exercised.
     """
 
     def __init__(self, trace: McapTrace, tables: Tables, model: str | None, variant: str) -> None:
@@ -36,6 +38,7 @@ class Replay:
         self.profile = tables.get(ROBOT, {})
         self.model: ModelData = load(_robot_model(model), models_dir(), variant)
         self.messages = self.events = self.skipped = 0
+        self.coverage: list[Coverage] = []
         self._devices: dict[str, Device] = {}
         self._base_only = _base_only(trace)
 
@@ -68,9 +71,9 @@ class Replay:
             sizes = {"PI": len(self.profile.get("predefined", ())), "Client": 0, "Request": 0}
             _, facts = scenario(sizes, self.profile)
             base = frozenset(name for owner, name in self._base_only if owner == vmd)
-            self._devices[vmd] = Device(
-                Place(self.trace.path, vmd), Belief(self.model, facts, self._proved()), self._arms(), base
-            )
+            belief = Belief(self.model, facts, self._proved())
+            self.coverage.append(belief.coverage)
+            self._devices[vmd] = Device(Place(self.trace.path, vmd), belief, self._arms(), base)
         return self._devices[vmd]
 
     def _proved(self) -> tuple[Claim, ...]:

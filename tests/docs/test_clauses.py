@@ -108,9 +108,20 @@ def test_the_statements_are_in_words_of_the_projects_own() -> None:
     assert close == []
 
 
-@pytest.mark.xfail(
-    strict=False, reason="tests are being added: python -m mmsverify.register . renews the tables"
-)
+STALE = "python -m mmsverify.register . renews the tables (with --tests-only, without replaying the samples)"
+
+
+@pytest.mark.xfail(strict=False, reason="tests are being added faster than the tables are renewed")
 def test_the_tables_of_what_is_exercised_are_those_of_the_present_tests() -> None:
-    stale = [path.name for path, text in tables(ROOT).items() if path.read_text(encoding="utf-8") != text]
-    assert stale == [], "python -m mmsverify.register . renews them"
+    assert stale(replay=False) == [], STALE
+
+
+@pytest.mark.slow
+@pytest.mark.xfail(strict=False, reason="tests are being added faster than the tables are renewed")
+def test_the_tables_of_what_is_exercised_are_those_of_the_present_samples() -> None:
+    assert stale(replay=True) == [], STALE
+
+
+def stale(*, replay: bool) -> list[str]:
+    present = tables(ROOT, replay=replay).items()
+    return [path.name for path, text in present if path.read_text(encoding="utf-8") != text]

@@ -14,6 +14,7 @@ from typing import Any
 from mmsverify.concrete.belief.act import Refusal, take
 from mmsverify.concrete.belief.blame import Blame, before, blame
 from mmsverify.concrete.belief.constraints import Constraints
+from mmsverify.concrete.belief.coverage import Coverage
 from mmsverify.concrete.belief.goal import Goal
 from mmsverify.concrete.belief.internal import Outstanding, Unseen, decided, undecided
 from mmsverify.concrete.belief.narrow import narrowing
@@ -67,6 +68,7 @@ class Belief:
         self.unseen = Unseen(model, self.constraints)
         self.states: list[Partial] = [Partial(self.world, {})]
         self.widened = False
+        self.coverage = Coverage()
         self._rows: dict[tuple[str, str], tuple[Row, ...]] = {}
         for row in model.rows:
             self._rows[row.on.phase, row.on.service] = (
@@ -150,13 +152,14 @@ class Belief:
 
     def _indicated(self, rows: Sequence[Row], state: Partial, env: Env) -> list[Partial]:
         """The state after the row that applies, or unchanged where none does."""
-        result = [after for row in rows for after in take(row, state, env, self.constraints)[0]]
+        taken = [(row, after) for row in rows for after in take(row, state, env, self.constraints)[0]]
+        self.coverage.taken([row for row, _ in taken])
         rest = [state]
         for row in rows:
             rest = [
                 left for before in rest for left in narrowing(row.guard_formula, False)(before, env, True)
             ]
-        return result + rest
+        return [after for _, after in taken] + rest
 
     def respond(
         self, slot: str, service: str, bindings: Mapping[str, Any], answer: str, *, local: bool = False
@@ -201,6 +204,7 @@ class Belief:
     ) -> tuple[list[Partial], list[Refusal]]:
         after: list[Partial] = []
         refusals: list[Refusal] = []
+        taken: list[Row] = []
         for state in ready:
             early = decided(state, slot)
             if early is not None:
@@ -208,8 +212,10 @@ class Belief:
                 continue
             for row in rows:
                 done, refused = take(row, state, env, self.constraints)
+                taken += [row] if done else []
                 after += done
                 refusals += refused
+        self.coverage.taken(taken)
         return after, refusals
 
     def watch(self, slot: str) -> None:
@@ -231,6 +237,7 @@ class Belief:
                 # Either it lies, and the belief stands; or it is true, and what it shows is learned anew.
                 then = [*self.states, *learned_anew(row, self.states, env, self.constraints)]
                 return self._violated([row], ready, refusals, env, then=then)
+            self.coverage.shown(row, Partial(self.world, {}), env)
             self._become(agreeing)
         return Outcome(written=written(earlier, self.states))
 
