@@ -1,4 +1,4 @@
-"""What counts as exercised by the events of a recording: what must have been taken, what could have been broken."""
+"""What counts as exercised by a recording: what must have been taken, what could have been broken."""
 
 from __future__ import annotations
 
