@@ -162,7 +162,10 @@ class Mended:
 
 @dataclass(frozen=True, slots=True)
 class Register:
-    """The clause register of a model; ``unknown`` are ids that are cited and have no statement in it."""
+    """The clause register of a model, or a part of it: ``counts`` are those of the whole.
+
+    ``unknown`` are ids that are cited and have no statement in it.
+    """
 
     model: str
     standard: str
@@ -170,6 +173,7 @@ class Register:
     entries: tuple[Entry, ...]
     repairs: tuple[Mended, ...]
     unknown: tuple[str, ...]
+    counts: Mapping[str, int] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)

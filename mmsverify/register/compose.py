@@ -34,14 +34,28 @@ def register(name_or_path: str, folder: Path) -> Register:
     found = _encodings(name, variants, known=bool(statements))
     exercised = read_exercised(path)
     every = {**statements, **{i: _unwritten(i) for i in sorted(found.keys() - statements.keys())}}
+    entries = tuple(Entry(s, _listed(found.get(i, {})), exercised.get(i, ())) for i, s in every.items())
     return Register(
         name,
         str(any_variant.options.get("standard", "")),
         tuple(variants),
-        tuple(Entry(s, _listed(found.get(i, {})), exercised.get(i, ())) for i, s in every.items()),
+        entries,
         tuple(_repairs(variants)),
         tuple(i for i in every if i not in statements) if statements else (),
+        _counts(entries),
     )
+
+
+def _counts(entries: Sequence[Entry]) -> dict[str, int]:
+    """How many statements there are, and how they are covered."""
+    return {
+        "statements": len(entries),
+        "checkable": sum(entry.statement.checkable for entry in entries),
+        "encoded": sum(bool(entry.encoded) for entry in entries),
+        "reasoned": sum(bool(entry.statement.reason) for entry in entries),
+        "uncovered": sum(entry.uncovered for entry in entries),
+        "exercised": sum(bool(entry.exercised) for entry in entries),
+    }
 
 
 def _encodings(name: str, variants: Mapping[str, type[Model]], *, known: bool) -> Found:

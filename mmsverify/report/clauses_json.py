@@ -21,22 +21,10 @@ def _model(register: Register) -> dict[str, Any]:
         "model": register.model,
         "standard": register.standard,
         "variants": list(register.variants),
-        "summary": summary(register.entries),
+        "summary": dict(register.counts),
         "clauses": [_entry(entry) for entry in register.entries],
         "repairs": [_repair(mended) for mended in register.repairs],
         "unknown": list(register.unknown),
-    }
-
-
-def summary(entries: Sequence[Entry]) -> dict[str, int]:
-    """How many statements there are, and how they are covered."""
-    return {
-        "statements": len(entries),
-        "checkable": sum(entry.statement.checkable for entry in entries),
-        "encoded": sum(bool(entry.encoded) for entry in entries),
-        "reasoned": sum(bool(entry.statement.reason) for entry in entries),
-        "uncovered": sum(entry.uncovered for entry in entries),
-        "exercised": sum(bool(entry.exercised) for entry in entries),
     }
 
 

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from textwrap import wrap
 
-from mmsverify.report.clauses_json import summary
 from mmsverify.report.wording import columns, counted, printable
 from mmsverify.results import Encoding, Entry, Exercise, Register
 
@@ -21,7 +20,7 @@ def render(registers: Sequence[Register], *, long: bool = False) -> str:
 
 def _model(register: Register, long: bool) -> Iterator[str]:
     standard = f" ({printable(register.standard)})" if register.standard else ""
-    yield f"{printable(register.model)}{standard}: {_summary(register.entries)}"
+    yield f"{printable(register.model)}{standard}: {_summary(register.counts)}"
     if long:
         for entry in register.entries:
             yield ""
@@ -37,8 +36,7 @@ def _model(register: Register, long: bool) -> Iterator[str]:
         yield from _repairs(register)
 
 
-def _summary(entries: Sequence[Entry]) -> str:
-    counts = summary(entries)
+def _summary(counts: Mapping[str, int]) -> str:
     parts = [
         counted(counts["statements"], "statement"),
         f"{counts['encoded']} encoded",
@@ -51,11 +49,16 @@ def _summary(entries: Sequence[Entry]) -> str:
 
 def _row(entry: Entry) -> tuple[str, ...]:
     statement = entry.statement
-    encoded = [printable(encoding.name) for encoding in entry.encoded]
-    if not encoded:
-        encoded = [f"({statement.reason})" if statement.reason else "-" if statement.checkable else ""]
+    encoded = [printable(encoding.name) for encoding in entry.encoded] or [_why_not(entry)]
     exercised = [exercise.name.rpartition("/")[2] for exercise in entry.exercised]
     return statement.id, statement.clause, statement.kind, _first(encoded), _first(exercised)
+
+
+def _why_not(entry: Entry) -> str:
+    """Why nothing encodes a statement; for one that is uncovered, how it could be checked."""
+    if entry.uncovered:
+        return f"- ({', '.join(entry.statement.checks)})"
+    return f"({entry.statement.reason})" if entry.statement.reason else ""
 
 
 def _first(names: Sequence[str]) -> str:

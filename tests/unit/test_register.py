@@ -166,7 +166,7 @@ def test_the_command_lists_every_statement_and_ends_well(
         ["L-1", "1", "invariant", "press"],
         ["L-2", "1", "invariant", "dark_at_first"],
         ["L-3", "1", "invariant", "lit"],
-        ["L-4", "1", "invariant", "-"],
+        ["L-4", "1", "invariant", "-", "(model)"],
     ]
 
 
