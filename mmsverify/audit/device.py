@@ -154,4 +154,5 @@ class Device:
             case "informationReport":
                 yield from self._showing.values(pdu, pdu, message)
             case "eventNotification":
+                yield from self._showing.notified(pdu)
                 yield from self._notifications.notified(pdu)

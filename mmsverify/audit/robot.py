@@ -60,7 +60,7 @@ def _arguments(pdu: Pdu, arms: frozenset[str]) -> dict[str, Any] | None:
         case "vMDStop" | "vMDReset":
             return {}
         case "takeControl" | "relinquishControl":
-            return {} if _name(body["semaphoreName"]) == words.SEMAPHORE else None
+            return {} if plain_name(body["semaphoreName"]) == words.SEMAPHORE else None
     return None
 
 
@@ -82,7 +82,7 @@ def _limit(start_count: tuple[str, Any]) -> dict[str, Any]:
     return {"limit": words.LIMIT[kind], "count": number if isinstance(number, int) else 0}
 
 
-def _name(object_name: tuple[str, Any]) -> str:
+def plain_name(object_name: tuple[str, Any]) -> str:
     """The name of an object that belongs to the VMD; that of another scope with its domain before it."""
     scope, name = object_name
     return f"{name['domainId']}/{name['itemId']}" if scope == "domain-specific" else str(name)
@@ -162,7 +162,7 @@ def read_values(request: Pdu, response: Pdu) -> Iterator[tuple[str, tuple[str, A
     for variable, result in zip(content, response.body["listOfAccessResult"], strict=False):
         specification, named = variable["variableSpecification"]
         if specification == "name" and "alternateAccess" not in variable and result[0] == "success":
-            yield _name(named), result[1]
+            yield plain_name(named), result[1]
 
 
 @dataclass(frozen=True, slots=True)

@@ -159,6 +159,29 @@ _LISTED = (
         severity="warning",
         shown=True,
     ),
+    _rule("object.attribute", "{attribute} of {object} is {found}, not {wanted}", "R-8.1-1", shown=True),
+    _rule("object.member", "{attribute} of {object} is {found}, without {wanted}", "R-8.1-1", shown=True),
+    # AlterEventConditionMonitoring may have changed it before the recording began.
+    _rule(
+        "object.initial",
+        "{attribute} of {object} is {found}, where the standard sets {wanted}",
+        "R-8.1-1",
+        severity="note",
+        shown=True,
+    ),
+    _rule("object.type", "{object} is described as {found}, not {wanted}", "R-8.1-1", shown=True),
+    _rule("object.deleted", "{object} was deleted, but is not deletable", "R-8.1-1"),
+    _rule(
+        "semaphore.tokens",
+        "R_CTRL has {count} owners, but only one token",
+        "R-8.6.1-2",
+        "R-8.6.1-3",
+        "B-SEMAPHORE",
+        shown=True,
+    ),
+    _rule(
+        "event.action-result", "event action {action} gives a result of {found}, not of {wanted}", "R-8.1-1"
+    ),
     _rule(
         "event.arm-running",
         "event condition R_ARM is notified, but the action result says that R_ARM is RUNNING",

@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
-from mmsverify.audit.robot import Call
+from mmsverify.audit.robot import Call, plain_name
 from mmsverify.audit.rules import Breach
 from mmsverify.audit.shapes import (
     BOOLEAN,
@@ -155,10 +155,7 @@ def written(request: Mapping[str, Any], response: Sequence[Value]) -> Iterator[B
 def _plain_name(listed: Mapping[str, Any]) -> str:
     """The name of a variable that is accessed as a whole, with its domain before it; else nothing."""
     kind, named = listed["variableSpecification"]
-    if kind != "name" or "alternateAccess" in listed:
-        return ""
-    scope, name = named
-    return f"{name['domainId']}/{name['itemId']}" if scope == "domain-specific" else str(name)
+    return plain_name(named) if kind == "name" and "alternateAccess" not in listed else ""
 
 
 def described(name: str, specification: Value) -> Iterator[tuple[Clause, Misfit]]:
@@ -167,6 +164,14 @@ def described(name: str, specification: Value) -> Iterator[tuple[Clause, Misfit]
     if variable is not None:
         for misfit in misdescribed(variable.shape, specification):
             yield cited(variable.clause, misfit), misfit
+
+
+def described_type(name: str, specification: Value) -> Iterator[tuple[Clause, Misfit]]:
+    """The same of a standardized type."""
+    standardized = TYPES.get(name)
+    if standardized is not None:
+        for misfit in misdescribed(standardized.shape, specification):
+            yield cited(standardized.clause, misfit), misfit
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from mmsverify.audit.objects import OBJECTS
 from mmsverify.audit.rules import RULES
 from mmsverify.audit.variables import TYPES, VARIABLES
 from mmsverify.profiles import ENTRY, KEYS
@@ -15,6 +16,7 @@ from mmsverify.resources import asn1_dir
 TABLES: Mapping[str, tuple[tuple[str, Any], ...]] = {
     "mms-robot": (
         ("rule", RULES),
+        ("standard object", OBJECTS),
         ("standard type", TYPES),
         ("standard variable", VARIABLES),
         ("profile key", KEYS["mms-robot"]),
