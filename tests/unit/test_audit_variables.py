@@ -166,7 +166,7 @@ def test_a_value_of_its_type_is_no_breach(name: str) -> None:
     assert judged((name, FITTING[name])) == []
 
 
-@pytest.mark.exercises(*sorted({clause for tried in MISFITTING.values() for _, clause in tried}))
+@pytest.mark.exercises("R-8.4.1-1", "R-8.4.2-1", "R-8.4.4-1", every="standard variable")
 @pytest.mark.parametrize(
     ("name", "value", "clause"),
     [(name, value, clause) for name, tried in MISFITTING.items() for value, clause in tried],
