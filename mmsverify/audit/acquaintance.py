@@ -12,6 +12,7 @@ from collections.abc import Iterable
 from mmsverify.audit.robot import Call
 
 ACTING = frozenset({"start", "stop", "resume", "reset", "kill", "deleteProgramInvocation", "alterPI"})
+CREATING = "createProgramInvocation"
 NAMING = ("pi", "selected_is", "controller_is", "controlling")
 
 
@@ -20,7 +21,15 @@ class Acquaintance:
 
     def __init__(self, predefined: Iterable[str]) -> None:
         self._known = set(predefined)
+        self._expected: list[str] = []
         self._closed = False
+
+    def expect(self, call: Call, *, settled: bool = False) -> None:
+        """What is asked for may be created before the answer says so; once that is there, it tells."""
+        if call.service == CREATING and settled and call.bindings["pi"] in self._expected:
+            self._expected.remove(call.bindings["pi"])
+        elif call.service == CREATING and not settled:
+            self._expected.append(call.bindings["pi"])
 
     def meet(self, call: Call) -> None:
         """A message has shown or created what it names; Status says whether any other can be there."""
@@ -40,4 +49,5 @@ class Acquaintance:
 
     def stranger(self, call: Call) -> bool:
         """Whether the service acts on a program invocation that cannot be there."""
-        return self._closed and call.service in ACTING and call.bindings.get("pi") not in self._known
+        known = {*self._known, *self._expected}
+        return self._closed and call.service in ACTING and call.bindings.get("pi") not in known

@@ -140,7 +140,9 @@ class Device:
             yield from self._showing.answered(asked, pdu, message)
         else:
             yield from self._showing.refused(asked, pdu, message)
-        if pdu.kind == "confirmed-ResponsePDU" and asked.pdu.service == "vMDReset":
+        # A state that comes with the answer of a service is that of its decision, which may be long ago.
+        undisturbed = self.belief.undisturbed(asked.slot)
+        if undisturbed and pdu.kind == "confirmed-ResponsePDU" and asked.pdu.service == "vMDReset":
             yield from self._showing.status(pdu.body, pdu.detail, message)
         if pdu.kind == "confirmed-ResponsePDU" and asked.pdu.service == "defineEventEnrollment":
             self._notifications.enrolled(asked.pdu)

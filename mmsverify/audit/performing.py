@@ -43,11 +43,18 @@ class Performing:
         call = self.call(asked)
         if call is not None:
             self._belief.indicate(asked.slot, call.service, _bindings(association, asked, call))
+            self._belief.watch(asked.slot)
+            self._acquaintance.expect(call)
 
     def answered(
         self, association: str, asked: Asked, call: robot.Call, pdu: Pdu, message: TraceMessage
     ) -> Iterator[Finding | Breach]:
-        """The robot has performed the service, or says why it has not."""
+        """The robot has performed the service, or says why it has not.
+
+        A state that stands in the answer is that of the decision: it is judged only if nothing else has been
+        told since the request.
+        """
+        self._acquaintance.expect(call, settled=True)
         if pdu.kind == "confirmed-ResponsePDU":
             yield from self._accepted(association, asked, call, message)
         else:
@@ -72,7 +79,8 @@ class Performing:
         bindings = {**_bindings(association, asked, call), "destructive": why.state == "UNRUNNABLE"}
         outcome = self._belief.respond(asked.slot, call.service, bindings, MINUS, local=why.local)
         yield from self._telling.outcome(message, call.service, MINUS, outcome, (asked.index,))
-        if why.state is not None and outcome.blame is None:
+        undisturbed = self._belief.undisturbed(asked.slot)
+        if why.state is not None and outcome.blame is None and undisturbed:
             left = {"pi": bindings["pi"], "shown_state": why.state}
             shown = self._belief.show("stateAfterFailure", left)
             yield from self._telling.outcome(message, call.service, MINUS, shown, (asked.index,))

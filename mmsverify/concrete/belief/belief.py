@@ -141,6 +141,7 @@ class Belief:
 
         Where the model has a transient state of the service, it is entered.
         """
+        self._remember(slot)
         env = self.environment("indication", service, bindings)
         env |= self.environment("response", service, bindings)
         rows = self._rows.get(("indication", service), ())
@@ -167,7 +168,7 @@ class Belief:
         """The responder answers; ``local``: a result(-) names a local reason, which needs no explanation."""
         env = self.environment("response", service, bindings)
         self._outstanding.pop(slot, None)
-        self._remember()
+        self._remember(slot)
         rows = [row for row in self._rows.get(("response", service), ()) if row.answer == answer]
         ready = self.unseen.before(self.states, "answer", self._others(slot), Goal(rows, env))
         earlier = self.states
@@ -222,10 +223,16 @@ class Belief:
         """State is asked for: the answer may show it at any instant from now on."""
         self._watches[slot] = _Watch()
 
+    def undisturbed(self, slot: str) -> bool:
+        """Whether nothing else has been told since ``slot`` was watched; it is watched no more."""
+        watch = self._watches.pop(slot, None)
+        return watch is None or not watch.earlier
+
     def show(self, service: str, bindings: Mapping[str, Any], slot: str | None = None) -> Outcome:
         """A message shows state, at some instant since it was asked for."""
         env = self.environment("shown", service, bindings)
-        watch = self._watches.pop(slot, None) if slot is not None else None
+        watch = self._watches.get(slot) if slot is not None else None
+        self._remember(slot)
         earlier = self.states
         rows = self._rows.get(("shown", service), ())
         for row in rows:
@@ -277,8 +284,11 @@ class Belief:
     def _others(self, slot: str) -> dict[str, Outstanding]:
         return {other: request for other, request in self._outstanding.items() if other != slot}
 
-    def _remember(self) -> None:
-        for watch in self._watches.values():
+    def _remember(self, slot: str | None) -> None:
+        """Something happens to the belief that is not the event of ``slot`` itself: other watchers saw it before."""
+        for watched, watch in self._watches.items():
+            if watched == slot:
+                continue
             if not watch.earlier or watch.earlier[-1] is not self.states:
                 watch.earlier.append(self.states)
 
