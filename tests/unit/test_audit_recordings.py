@@ -169,3 +169,32 @@ def test_one_fault_is_one_finding(listen: Listen) -> None:
     made.attributes("TASK", "stopped", controlling([]))
     made.attributes(ARM, "idle", controlled(None), deletable=False)
     assert rules(listen(made.recording)) == [(6, "start.not-selected")]
+
+
+def test_a_refusal_may_tell_the_state_from_before_another_request_was_answered(listen: Listen) -> None:
+    made = cell()
+    made.create("OLD")
+    refused = made.ask("resume", {"programInvocationName": "OLD"})
+    made.call("deleteProgramInvocation", "OLD")
+    made.refuse(refused, ("service", "object-state-conflict"), ("resume", "idle"))
+    assert rules(listen(made.recording)) == []
+
+
+def test_what_is_being_created_may_be_used_before_the_answer_says_so(listen: Listen) -> None:
+    made = cell()
+    made.status("robot-idle")
+    body = {"programInvocationName": "NEW", "listOfDomainNames": ["NEW"], "reusable": True}
+    asked = made.ask("createProgramInvocation", body)
+    made.start("NEW")
+    made.answer(asked, "createProgramInvocation")
+    assert rules(listen(made.recording)) == []
+
+
+def test_an_answer_may_show_the_state_from_before_another_answer_showed_more(listen: Listen) -> None:
+    made = cell()
+    made.create("JOB", 0)
+    made.start("JOB")
+    early = made.ask("getProgramInvocationAttributes", "JOB")
+    made.attributes("JOB", "idle", pdus.NORMAL)  # it has come to its end
+    made.answer(early, "getProgramInvocationAttributes", pdus.attributes("running", ["JOB"]), pdus.NORMAL)
+    assert rules(listen(made.recording)) == []
