@@ -285,7 +285,7 @@ class Belief:
         return {other: request for other, request in self._outstanding.items() if other != slot}
 
     def _remember(self, slot: str | None) -> None:
-        """Something is told that is not the event of ``slot`` itself: those who watch may have seen before it."""
+        """Something is told that is not the event of ``slot``: who watches may have seen before it."""
         for watched, watch in self._watches.items():
             if watched == slot:
                 continue
