@@ -20,7 +20,7 @@ from mmsverify.errors import DecodeError
 from mmsverify.formats import mms
 from mmsverify.formats.mms import Pdu
 from mmsverify.formats.trace import TraceMessage
-from mmsverify.model.rows import PLUS
+from mmsverify.model.rows import PLUS, Clause
 from mmsverify.results import Finding
 
 Told = Iterator[Finding | Breach]
@@ -84,7 +84,9 @@ class Device:
         try:
             pdu = mms.decode(message.data)
         except DecodeError as error:
-            yield from self._telling.breach(message, Breach("protocol.undecodable", {"cause": str(error)}))
+            clause = Clause.of(*mms.encoded_statements(error.path))
+            breach = Breach("protocol.undecodable", {"cause": str(error)}, clause=clause)
+            yield from self._telling.breach(message, breach)
             return
         for found in self._judge(self._association(name), side, pdu, message):
             if isinstance(found, Breach):

@@ -8,13 +8,14 @@ returns a `Pdu` or raises `DecodeError`. What a message means is not decided her
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, NamedTuple
 
 from mmsverify.errors import DecodeError
-from mmsverify.formats import companion
+from mmsverify.formats import cited, companion
 from mmsverify.formats.ber import EncodeError, Fault, header, shown
 from mmsverify.formats.codec import Misfit, Type, Walk
 from mmsverify.formats.schema import Schema
@@ -28,6 +29,7 @@ __all__ = [
     "bits",
     "decode",
     "encode",
+    "encoded_statements",
     "error_class_code",
     "locate",
     "named",
@@ -43,6 +45,7 @@ _INVOKE_FIELD = {
     "rejectPDU": "originalInvokeID",
 }
 _ONLY_INVOKE = frozenset({"cancel-RequestPDU", "cancel-ResponsePDU"})
+_ITEM = re.compile(r"\[\d+\]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +79,11 @@ class ErrorCause(NamedTuple):
 @cache
 def _schema() -> Schema:
     return Schema.of_folder(asn1_dir())
+
+
+@cache
+def _statements() -> dict[str, tuple[str, ...]]:
+    return cited.statements(path.read_text(encoding="utf-8") for path in sorted(asn1_dir().glob("*.asn")))
 
 
 @cache
@@ -161,6 +169,15 @@ def error_class_code(body: Mapping[str, Any]) -> ErrorCause:
     error = body.get("serviceError", body)
     class_name, code = error["errorClass"]
     return ErrorCause(class_name, code, error.get("serviceSpecificInformation"))
+
+
+def encoded_statements(path: str) -> tuple[str, ...]:
+    """The statements that the ASN.1 type at ``path`` encodes: those of the innermost production with any.
+
+    ``path`` is a `DecodeError`'s.
+    """
+    names = _ITEM.sub("", path).split(".")
+    return cited.innermost(_schema().places("MMSpdu", names), _statements())
 
 
 def _read(walk: Walk) -> tuple[str, Any]:

@@ -77,7 +77,7 @@ class Schema:
     def __init__(self, texts: Iterable[str]) -> None:
         text = "\n".join(texts)
         modules = _parsed(text)
-        self._choice_defaults = {name: (name, int(value)) for name, value in _CHOICE_DEFAULT.findall(text)}
+        self._choice_defaults = _choice_defaults(text)
         self._also: Tree = modules[ALSO_READ]["types"] if ALSO_READ in modules else {}
         self._trees: Tree = {}
         for name, module in modules.items():
@@ -107,6 +107,35 @@ class Schema:
         tree = self._trees[name]
         numbers = tree.get("named-numbers") or dict(tree.get("named-bits") or ())
         return {int(number): label for label, number in numbers.items()}
+
+    def places(self, root: str, names: Iterable[str]) -> list[str]:
+        """The productions and fields that field names lead through from the type ``root``, outermost first.
+
+        A production is told by its name, a field by that of its production and of the fields around it.
+        """
+        found: list[str] = []
+        open_ones = self._opened(root, {"type": root}, found)
+        for name in names:
+            steps = ((f"{where}.{name}", one) for where, tree in open_ones for one in tree["members"])
+            place, member = next((step for step in steps if step[1]["name"] == name), ("", {}))
+            if not member:
+                break
+            found.append(place)
+            open_ones = self._opened(place, member, found)
+        return found
+
+    def _opened(self, where: str, tree: Tree, found: list[str]) -> list[tuple[str, Tree]]:
+        """The trees with members behind a type, in both its forms; productions on the way join ``found``."""
+        kind = tree["type"]
+        if kind == "SEQUENCE OF":
+            return self._opened(where, tree["element"], found)
+        if kind in ("SEQUENCE", "CHOICE"):
+            return [(where, tree)]
+        if kind not in self._trees:
+            return []
+        found.append(kind)
+        forms = [form[kind] for form in (self._trees, self._also) if kind in form]
+        return [one for form in forms for one in self._opened(kind, form, found)]
 
     def _named(self, name: str, tag: Tag | None) -> Type:
         key = name, tag
@@ -184,6 +213,16 @@ def _parsed(text: str) -> Mapping[str, Tree]:
     except (asn1tools.ParseError, ValueError) as bad:
         raise SchemaError(f"the ASN.1 text cannot be parsed: {bad}") from None
     return modules
+
+
+def _choice_defaults(text: str) -> dict[str, tuple[str, int]]:
+    """The defaults that are an alternative with a number, by what the parser leaves of them: the name."""
+    found: dict[str, tuple[str, int]] = {}
+    for name, value in _CHOICE_DEFAULT.findall(text):
+        default = name, int(value)
+        if found.setdefault(name, default) != default:
+            raise SchemaError(f"two defaults for the alternative {name}", place=name, cure="use one value")
+    return found
 
 
 def _identifier(tag: Tag) -> int:
