@@ -34,6 +34,7 @@ __all__ = [
     "locate",
     "named",
     "number",
+    "robot_syntax",
 ]
 
 _WITH_SERVICE = frozenset({"confirmed-RequestPDU", "confirmed-ResponsePDU", "unconfirmed-PDU"})
@@ -169,6 +170,11 @@ def error_class_code(body: Mapping[str, Any]) -> ErrorCause:
     error = body.get("serviceError", body)
     class_name, code = error["errorClass"]
     return ErrorCause(class_name, code, error.get("serviceSpecificInformation"))
+
+
+def robot_syntax() -> str:
+    """The object identifier of the robot standard's abstract syntax (7.2), as Identify lists it."""
+    return _schema().object_identifier("mms-robot-syntax")
 
 
 def encoded_statements(path: str) -> tuple[str, ...]:

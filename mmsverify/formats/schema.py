@@ -79,6 +79,9 @@ class Schema:
         modules = _parsed(text)
         self._choice_defaults = _choice_defaults(text)
         self._also: Tree = modules[ALSO_READ]["types"] if ALSO_READ in modules else {}
+        self._values: Tree = {
+            name: one for module in modules.values() for name, one in module["values"].items()
+        }
         self._trees: Tree = {}
         for name, module in modules.items():
             if name != ALSO_READ:
@@ -107,6 +110,11 @@ class Schema:
         tree = self._trees[name]
         numbers = tree.get("named-numbers") or dict(tree.get("named-bits") or ())
         return {int(number): label for label, number in numbers.items()}
+
+    def object_identifier(self, name: str) -> str:
+        """The object identifier that a module assigns to that name, as dotted numbers."""
+        arcs = self._values[name]["value"]
+        return ".".join(str(arc[1] if isinstance(arc, tuple) else arc) for arc in arcs)
 
     def places(self, root: str, names: Iterable[str]) -> list[str]:
         """The productions and fields that field names lead through from the type ``root``, outermost first.

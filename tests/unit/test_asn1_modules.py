@@ -79,7 +79,8 @@ def test_a_detail_has_the_tag_of_its_service(detail: str) -> None:
 def one_module() -> str:
     """All modules but the forms only read as one, for a compiler that types across modules overtax."""
     text = "".join(text for name, text in TEXTS.items() if name != "mms-also-read.asn")
-    bodies = re.sub(r"--.*|^[\w-]+ (\{[^}]*\} )?DEFINITIONS.*|^mms-robot-syntax.*|IMPORTS [^;]*;|^END$", "", text, flags=re.M)
+    frame = r"--.*|^[\w-]+ (\{[^}]*\} )?DEFINITIONS.*|^mms-robot-syntax.*|IMPORTS [^;]*;|^END$"
+    bodies = re.sub(frame, "", text, flags=re.M)
     return f"{HEADER}{re.sub(r'DEFAULT cycleCount : 1', 'OPTIONAL', bodies)}END"
 
 
