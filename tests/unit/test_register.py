@@ -14,7 +14,6 @@ from mmsverify.errors import ModelError
 from mmsverify.model import Always, Clause, Model, Relation, Sometimes, Transition, internal, needs, repaired
 from mmsverify.register.citations import citations, of_model
 from mmsverify.register.compose import register
-from mmsverify.register.grammar import of_module
 from mmsverify.register.statements import read_statements
 
 HEADER = "id\tclause\tkind\tchecks\tstatement\treason\tbecause\n"
@@ -90,27 +89,6 @@ def test_a_table_tells_the_citations_of_each_entry_under_its_name() -> None:
     }
     found = [(name, clause.ids) for name, clause in citations(table, "table")]
     assert found == [("clauses", ("R-1-1",)), ("own.name", ("R-1-2",))]
-
-
-def test_a_comment_of_a_module_counts_for_the_type_or_field_below_or_beside_it() -> None:
-    text = """-- R-1-0
-M DEFINITIONS ::= BEGIN
--- 7.3, R-7.3-1 and R-7.3-2
-Detail ::= SEQUENCE {
-    state [0] INTEGER, -- R-7.3-3
-    -- R-7.3-4
-    mask  [1] BIT STRING
-}
-END
--- R-9-9
-"""
-    assert [(place, clause.ids) for _, place, clause in of_module("m", text)] == [
-        ("m", ("R-1-0",)),
-        ("Detail", ("R-7.3-1", "R-7.3-2")),
-        ("Detail.state", ("R-7.3-3",)),
-        ("Detail.mask", ("R-7.3-4",)),
-        ("m", ("R-9-9",)),
-    ]
 
 
 def test_a_users_model_without_a_table_has_a_register_of_what_it_cites(tmp_path: Path) -> None:
