@@ -11,17 +11,18 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from mmsverify.concrete.belief.act import Refusal, take
+from mmsverify.concrete.belief.act import Refusal, settle, take
 from mmsverify.concrete.belief.blame import Blame, before, blame
-from mmsverify.concrete.belief.constraints import Constraints
+from mmsverify.concrete.belief.constraints import Conflict, Constraints
 from mmsverify.concrete.belief.coverage import Coverage
 from mmsverify.concrete.belief.goal import Goal
+from mmsverify.concrete.belief.ground import Ground, negated
 from mmsverify.concrete.belief.internal import Outstanding, Unseen, decided, undecided
-from mmsverify.concrete.belief.narrow import narrowing
-from mmsverify.concrete.belief.partial import Key, Partial, World, distinct, widened, written
+from mmsverify.concrete.belief.nodes import Formula
+from mmsverify.concrete.belief.partial import OTHER, Key, Partial, World, distinct, widened, written
+from mmsverify.concrete.belief.ready import Rows
 from mmsverify.concrete.belief.resync import forced, learned_anew, sight_lost
-from mmsverify.concrete.belief.truth import ABSENT, Env, value
-from mmsverify.concrete.belief.values import NO, YES, exactly, plain
+from mmsverify.concrete.belief.values import ABSENT, NO, YES, Env, exactly, plain
 from mmsverify.model.expr import Ref
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import MINUS, PLUS, Claim, Clause, Row
@@ -64,9 +65,11 @@ class Belief:
         self.world = World(model)
         claims = [(c.formula, c.clause) for c in invariants]
         claims += [(a.condition, a.clause) for a in model.assumptions]
-        self.constraints = Constraints(self.world, claims)
-        self.unseen = Unseen(model, self.constraints)
-        self.states: list[Partial] = [Partial(self.world, {})]
+        self.ground = Ground(self.world)
+        self.made = Rows(self.ground)
+        self.constraints = Constraints(self.ground, claims)
+        self.unseen = Unseen(model, self.constraints, self.made)
+        self.states: list[Partial] = [self.world.blank()]
         self.widened = False
         self.coverage = Coverage()
         self._rows: dict[tuple[str, str], tuple[Row, ...]] = {}
@@ -91,14 +94,15 @@ class Belief:
         """A name has been seen in the recording."""
         if self.world.known(sort, name):
             return
-        self.world.names[sort.name].append(name)
+        cells = self.world.add(sort, name)
+        self.made.forget()
         self.constraints.forget()
         self.unseen.forget()
-        self.world.survives.clear()
-        self.states = [after for state in self.states for after in state.meets(name, sort)]
+        self.states = [after for state in self.states for after in state.meets(name, sort, cells)]
         for watch in self._watches.values():
             watch.earlier = [
-                [after for state in states for after in state.meets(name, sort)] for states in watch.earlier
+                [after for state in states for after in state.meets(name, sort, cells)]
+                for states in watch.earlier
             ]
 
     def environment(self, phase: str, service: str, bindings: Mapping[str, Any]) -> dict[str, Any]:
@@ -121,8 +125,10 @@ class Belief:
         expr = self.model.define(
             name, *(Ref(arg, sort) for arg, sort in zip(args, self._sorts(name), strict=True))
         )
-        env = {arg: arg for arg in args}
-        return any(word in map(str, plain(value(expr)(state, env))) for state in self.states)
+        known = {name for names in self.world.names.values() for name in names}
+        value = self.ground.value(expr, {arg: arg if arg in known else OTHER for arg in args})
+        assert value is not None
+        return any(word in map(str, plain(value.known(state), expr.sort)) for state in self.states)
 
     def _sorts(self, name: str) -> tuple[Any, ...]:
         if name in self.model.definitions:
@@ -146,21 +152,29 @@ class Belief:
         env |= self.environment("response", service, bindings)
         rows = self._rows.get(("indication", service), ())
         if rows:
-            ready = self.unseen.before(self.states, "answer", self._others(slot), Goal(rows, env))
-            self._become([after for state in ready for after in self._indicated(rows, state, env)])
+            goal = Goal(rows, env, self.made)
+            ready = self.unseen.before(self.states, "answer", self._others(slot), goal)
+            self._become([after for state in ready for after in self._indicated(goal, state)])
         if ("response", service) in self._rows:
             self._outstanding[slot] = Outstanding(slot, self._rows["response", service], env)
 
-    def _indicated(self, rows: Sequence[Row], state: Partial, env: Env) -> list[Partial]:
+    def _indicated(self, goal: Goal, state: Partial) -> list[Partial]:
         """The state after the row that applies, or unchanged where none does."""
-        taken = [(row, after) for row in rows for after in take(row, state, env, self.constraints)[0]]
+        taken = [
+            (row, after)
+            for row, ways in zip(goal.rows, goal.ways, strict=True)
+            for after in take(ways, state, self.constraints)[0]
+        ]
         self.coverage.taken([row for row, _ in taken])
         rest = [state]
-        for row in rows:
-            rest = [
-                left for before in rest for left in narrowing(row.guard_formula, False)(before, env, True)
-            ]
+        for row in goal.rows:
+            refuses = negated(self.ground.formula(row.guard_formula, goal.env))
+            rest = [left for before in rest for left in self._assumed(refuses, before)]
         return [after for _, after in taken] + rest
+
+    def _assumed(self, formula: Formula, state: Partial) -> list[Partial]:
+        settled = (settle(state, left, self.constraints) for left in formula.assume(state, True, True))
+        return [found for found in settled if not isinstance(found, Conflict)]
 
     def respond(
         self, slot: str, service: str, bindings: Mapping[str, Any], answer: str, *, local: bool = False
@@ -170,19 +184,20 @@ class Belief:
         self._outstanding.pop(slot, None)
         self._remember(slot)
         rows = [row for row in self._rows.get(("response", service), ()) if row.answer == answer]
-        ready = self.unseen.before(self.states, "answer", self._others(slot), Goal(rows, env))
+        goal = Goal(rows, env, self.made)
+        ready = self.unseen.before(self.states, "answer", self._others(slot), goal)
         earlier = self.states
-        after, refusals = self._answered(rows, ready, env, slot, answer)
+        after, refusals = self._answered(goal, ready, slot, answer)
         if after:
             made = {assign.variable: assign.clauses for row in rows for assign in row.assigns}
             return replace(self._become(after, earlier), clauses=made)
         self.states = [undecided(state, slot) for state in earlier]
-        effects = forced(rows, self.states, env, self.constraints)
+        effects = forced(goal, self.states, self.constraints)
         if local and answer == MINUS:
             return self._become(effects or self.states, earlier)
         if answer == MINUS:
             return self._refused(service, ready, env, [*effects, *self.states])
-        return self._violated(rows, ready, refusals, env, expected=(MINUS,), then=[*effects, *self.states])
+        return self._violated(goal, ready, refusals, expected=(MINUS,), then=[*effects, *self.states])
 
     def _refused(self, service: str, ready: Sequence[Partial], env: Env, then: list[Partial]) -> Outcome:
         """A result(-) for which nothing stands: a warning, for the text does not list every reason."""
@@ -192,7 +207,7 @@ class Belief:
             if accepting
             else Clause(())
         )
-        shown = before(self.model, ready or self.states, env)
+        shown = before(self.ground, ready or self.states, env)
         found = Blame(
             f"{service}.refused", "warning", clause, "nothing stands against it", (PLUS,), shown, frozenset()
         )
@@ -201,7 +216,7 @@ class Belief:
         return Outcome(found, written(earlier, self.states))
 
     def _answered(
-        self, rows: Sequence[Row], ready: Sequence[Partial], env: Env, slot: str, answer: str
+        self, goal: Goal, ready: Sequence[Partial], slot: str, answer: str
     ) -> tuple[list[Partial], list[Refusal]]:
         after: list[Partial] = []
         refusals: list[Refusal] = []
@@ -211,8 +226,8 @@ class Belief:
             if early is not None:
                 after += [undecided(state, slot)] if early == answer else []
                 continue
-            for row in rows:
-                done, refused = take(row, state, env, self.constraints)
+            for row, ways in zip(goal.rows, goal.ways, strict=True):
+                done, refused = take(ways, state, self.constraints)
                 taken += [row] if done else []
                 after += done
                 refusals += refused
@@ -234,32 +249,31 @@ class Belief:
         watch = self._watches.get(slot) if slot is not None else None
         self._remember(slot)
         earlier = self.states
-        rows = self._rows.get(("shown", service), ())
-        for row in rows:
-            ready = self.unseen.before(self.states, "observation", self._outstanding, Goal([row], env))
-            agreeing, refusals = self._agreeing(row, ready, env)
-            if watch is not None and any(self._agreed(row, states, env) for states in watch.earlier):
+        for row in self._rows.get(("shown", service), ()):
+            goal = Goal([row], env, self.made)
+            ready = self.unseen.before(self.states, "observation", self._outstanding, goal)
+            agreeing, refusals = self._agreeing(goal, ready)
+            if watch is not None and any(self._agreed(goal, states) for states in watch.earlier):
                 continue  # it may show an earlier instant, and then says nothing about this one
             if not agreeing:
                 # Either it lies, and the belief stands; or it is true, and what it shows is learned anew.
-                then = [*self.states, *learned_anew(row, self.states, env, self.constraints)]
-                return self._violated([row], ready, refusals, env, then=then)
-            self.coverage.shown(row, Partial(self.world, {}), env)
+                then = [*self.states, *learned_anew(goal, self.states, self.constraints)]
+                return self._violated(goal, ready, refusals, then=then)
+            self.coverage.shown(goal, self.world.blank())
             self._become(agreeing)
         return Outcome(written=written(earlier, self.states))
 
-    def _agreed(self, row: Row, states: list[Partial], env: Env) -> bool:
-        return bool(
-            self._agreeing(row, self.unseen.before(states, "observation", {}, Goal([row], env)), env)[0]
-        )
+    def _agreed(self, goal: Goal, states: list[Partial]) -> bool:
+        return bool(self._agreeing(goal, self.unseen.before(states, "observation", {}, goal))[0])
 
-    def _agreeing(self, row: Row, ready: Sequence[Partial], env: Env) -> tuple[list[Partial], list[Refusal]]:
+    def _agreeing(self, goal: Goal, ready: Sequence[Partial]) -> tuple[list[Partial], list[Refusal]]:
         after: list[Partial] = []
         refusals: list[Refusal] = []
         for state in ready:
-            done, refused = take(row, state, env, self.constraints)
-            after += done
-            refusals += refused
+            for ways in goal.ways:
+                done, refused = take(ways, state, self.constraints)
+                after += done
+                refusals += refused
         return after, refusals
 
     def lose_sight(self) -> None:
@@ -275,7 +289,7 @@ class Belief:
                 after
                 for state in self.states
                 for row in outstanding.rows
-                for after in take(row, state, outstanding.env, self.constraints)[0]
+                for after in take(self.made.ready(row, outstanding.env), state, self.constraints)[0]
             ]
             self._become([undecided(s, slot) for s in [*self.states, *extra]])
 
@@ -302,17 +316,16 @@ class Belief:
 
     def _violated(
         self,
-        rows: Sequence[Row],
+        goal: Goal,
         ready: Sequence[Partial],
         refusals: Sequence[Refusal],
-        env: Env,
         *,
         expected: tuple[str, ...] = (),
         then: list[Partial],
     ) -> Outcome:
         earlier = self.states
         near = ready or earlier
-        found = blame(self.model, near, rows, refusals, env, expected=expected) if rows else None
+        found = blame(self.ground, near, goal, refusals, expected=expected) if goal.rows else None
         self._become(then or earlier)
         return Outcome(found, written(earlier, self.states))
 

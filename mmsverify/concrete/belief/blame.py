@@ -11,13 +11,16 @@ from functools import reduce
 from typing import Any
 
 from mmsverify.concrete.belief.act import Refusal
+from mmsverify.concrete.belief.goal import Goal
+from mmsverify.concrete.belief.ground import Ground
 from mmsverify.concrete.belief.partial import OTHER, Key, Partial
-from mmsverify.concrete.belief.truth import ABSENT, Env, truth, value
-from mmsverify.concrete.belief.values import NO, Known, join, plain, single
+from mmsverify.concrete.belief.ready import Ready
+from mmsverify.concrete.belief.values import ABSENT, NO, Env, Known, everything, join, plain, single
 from mmsverify.model import expr as ex
 from mmsverify.model.expr import Cell, Eq, Ref
-from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Clause, Conjunct, Row
+from mmsverify.model.sorts import BOOL, Sort
+from mmsverify.model.terms import SetOf
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,25 +41,26 @@ class Blame:
 
 
 def blame(
-    model: ModelData,
+    ground: Ground,
     states: Sequence[Partial],
-    rows: Sequence[Row],
+    goal: Goal,
     refusals: Sequence[Refusal],
-    env: Env,
     *,
     expected: tuple[str, ...],
 ) -> Blame:
     """The mildest and most plausible explanation: the state and row with the fewest conditions broken."""
-    best = min((_breach(row, state, env, refusals) for row in rows for state in states), key=_weight)
-    conjunct, invariant, state = best.conjunct, best.invariant, best.state
-    shown = _expected(conjunct, states, env) or expected
+    best = min(
+        (_breach(way, state, refusals) for ways in goal.ways for way in ways for state in states), key=_weight
+    )
+    conjunct, invariant, state, env = best.conjunct, best.invariant, best.state, goal.env
+    shown = _expected(conjunct, states, env, ground) or expected
     return Blame(
         rule=conjunct.rule,
         level=best.level,
         clause=conjunct.clause + invariant,
-        says=_sentence(conjunct.says, states, env),
+        says=_sentence(conjunct.says, states, goal),
         expected=shown,
-        before=before(model, states, env),
+        before=before(ground, states, env),
         reads=_cells(conjunct, state, env),
     )
 
@@ -75,9 +79,10 @@ def _weight(breach: _Breach) -> tuple[bool, int, int]:
     return (breach.level == "error", breach.broken, -breach.passed)
 
 
-def _breach(row: Row, state: Partial, env: Env, refusals: Sequence[Refusal]) -> _Breach:
+def _breach(way: Ready, state: Partial, refusals: Sequence[Refusal]) -> _Breach:
     """The conditions of the row that are certainly broken in the state, or the one where it got stuck."""
-    broken = [(i, c) for i, c in enumerate(row.guard) if truth(c.condition)(state, env) == NO]
+    row = way.row
+    broken = [(i, row.guard[i]) for i, formula in enumerate(way.guard) if formula.holds(state) == NO]
     stuck = [r for r in refusals if r.row is row]
     invariant = next((r.invariant for r in stuck if r.invariant.ids and not broken), Clause(()))
     if not broken:
@@ -93,11 +98,13 @@ def _whole(row: Row) -> Conjunct:
     return Conjunct(row.guard_formula, row.clause, row.name, "what it leads to cannot be")
 
 
-def _sentence(says: str, states: Sequence[Partial], env: Env) -> str:
+def _sentence(says: str, states: Sequence[Partial], goal: Goal) -> str:
     """``says`` with its slots filled: parameters of the event and, by variable name, what the states hold."""
-    words = {name: _word(given) for name, given in env.items()}
-    for variable in states[0].world.full if states else ():
-        words.setdefault(variable, _word(_joined(states, (variable, ()))))
+    sorts = {p.name: p.of for row in goal.rows for p in row.on.parameters if not isinstance(p, SetOf)}
+    words = {name: _word(given, sorts.get(name, BOOL)) for name, given in goal.env.items()}
+    for signature in states[0].world.model.signatures.values():
+        if not signature.sorts and signature.name not in words:
+            words[signature.name] = _word(_joined(states, (signature.name, ())), signature.of)
     return says.format_map(_Words(words))
 
 
@@ -106,26 +113,28 @@ class _Words(dict[str, str]):
         return name
 
 
-def _word(given: Any) -> str:
+def _word(given: Any, sort: Sort) -> str:
     if given is ABSENT or given is None:
         return "none"
     if isinstance(given, str):
         return given
-    if isinstance(given, frozenset) and all(isinstance(v, str) for v in given):
+    if isinstance(given, frozenset):
         return ", ".join(sorted(given)) or "nothing"
-    return " or ".join(str(v).upper() if isinstance(v, bool) else str(v) for v in plain(given)) or "unknown"
+    words = (str(v).upper() if isinstance(v, bool) else str(v) for v in plain(given, sort))
+    return " or ".join(words) or "unknown"
 
 
-def _expected(conjunct: Conjunct, states: Sequence[Partial], env: Env) -> tuple[str, ...]:
+def _expected(conjunct: Conjunct, states: Sequence[Partial], env: Env, ground: Ground) -> tuple[str, ...]:
     """For a shown value: the values that it could have had, as ``attribute=value``."""
     for node in ex.walk(conjunct.condition):
         if isinstance(node, Eq) and isinstance(node.right, Ref) and node.right.name.startswith("shown_"):
-            listed = plain(reduce(join, (value(node.left)(state, env) for state in states)))
-            return tuple(
-                f"{node.right.name.removeprefix('shown_')}={v}"
-                for v in listed
-                if v not in plain(env[node.right.name])
-            )
+            value = ground.value(node.left, env)
+            given, sort = env[node.right.name], node.left.sort
+            if value is None or given is ABSENT:
+                return ()
+            listed = plain(reduce(join, (value.known(state) for state in states)), sort)
+            name = node.right.name.removeprefix("shown_")
+            return tuple(f"{name}={v}" for v in listed if v not in plain(given, sort))
     return ()
 
 
@@ -133,42 +142,34 @@ def _joined(states: Sequence[Partial], key: Key) -> Known:
     return reduce(join, (state.get(key) for state in states))
 
 
-def before(model: ModelData, states: Sequence[Partial], env: Env) -> dict[str, Any]:
+def before(ground: Ground, states: Sequence[Partial], env: Env) -> dict[str, Any]:
     """The state before the event, by attribute: single cells, definitions, cells of the names in the event.
 
     Relations that do not hold are left out, and what is not known.
     """
+    model = ground.world.model
     names = {given for given in env.values() if isinstance(given, str)}
-    names |= {
-        n for given in env.values() if isinstance(given, frozenset) for n in given if isinstance(n, str)
-    }
+    names |= {n for given in env.values() if isinstance(given, frozenset) for n in given}
     shown: dict[str, Any] = {}
-    for key in sorted({key for state in states for key in state.cells}):
+    for key in sorted({key for state in states for key, _ in state.cells()}):
         variable, args = key
-        if variable.startswith("$") or OTHER in args or (args and not names.intersection(args)):
+        signature = model.signatures[variable]
+        if signature.rigid or OTHER in args or (args and not names.intersection(args)):
             continue
         known = _joined(states, key)
-        if (
-            variable in model.signatures
-            and not model.signatures[variable].rigid
-            and not (args and known == NO)
-        ):
-            _put(
-                shown,
-                f"{variable}[{', '.join(args)}]" if args else variable,
-                known,
-                states[0].world.full[variable],
-            )
+        if not (args and signature.of is BOOL and known == NO):
+            _put(shown, f"{variable}[{', '.join(args)}]" if args else variable, known, signature.of)
     for name, (parameters, body) in model.definitions.items():
-        if not parameters and body.sort.name != "Boolean":
-            _put(shown, name, reduce(join, (value(body)(state, {}) for state in states)), None)
+        value = None if parameters or body.sort is BOOL else ground.value(body, {})
+        if value is not None:
+            _put(shown, name, reduce(join, (value.known(state) for state in states)), body.sort)
     return dict(sorted(shown.items()))
 
 
-def _put(shown: dict[str, Any], name: str, known: Known, full: Known | None) -> None:
-    if known == full:
+def _put(shown: dict[str, Any], name: str, known: Known, sort: Sort) -> None:
+    if known == everything(sort):
         return
-    listed = plain(known)
+    listed = plain(known, sort)
     if len(listed) == 1 and single(known):
         shown[name] = listed[0]
     elif listed and len(listed) < 6:
@@ -186,7 +187,7 @@ def _cells(conjunct: Conjunct, state: Partial, env: Env) -> frozenset[Key]:
 
 def _instances(cell: Cell, state: Partial, env: Env) -> Iterable[Key]:
     fixed = [env.get(arg.name) if isinstance(arg, Ref) else None for arg in cell.args]
-    for key in state.cells:
+    for key, _ in state.cells():
         if key[0] == cell.variable and all(
             not isinstance(f, str) or f == name for f, name in zip(fixed, key[1], strict=True)
         ):

@@ -1,25 +1,23 @@
 """The proved invariants as constraints on partial states: what one known cell says of others.
 
-After a cell has changed, only those instances of an invariant are looked at that mention the cell: its
-arguments bind the quantified variables, the remaining ones range over the names seen (the idea of watched
-literals). Nothing is split here.
+After a cell has changed, only those instances of an invariant are looked at that mention the cell (the idea
+of watched literals); they are made once for the names seen, without those that hold anyway. Nothing is split
+here.
 """
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import product
 from typing import TypeGuard
 
-from mmsverify.concrete.belief.comparison import Narrowing
-from mmsverify.concrete.belief.narrow import narrowing
-from mmsverify.concrete.belief.partial import OTHER, Key, Partial, World
-from mmsverify.concrete.belief.truth import Truth, truth
+from mmsverify.concrete.belief.ground import Ground, quantifies
+from mmsverify.concrete.belief.nodes import Fixed, Formula
+from mmsverify.concrete.belief.partial import OTHER, Partial, changed
 from mmsverify.concrete.belief.values import NO, YES
 from mmsverify.model import expr as ex
-from mmsverify.model.expr import Cell, Expr, Quantified, Ref
+from mmsverify.model.expr import Expr, Quantified, Ref
 from mmsverify.model.rows import Clause
 
 LARGEST = 60
@@ -27,16 +25,23 @@ LARGEST = 60
 
 Larger ones spell out definitions of the whole state: they are costly and narrow little.
 """
-
-_Trigger = tuple[int, tuple[str, ...]]
+LARGEST_MEMO = 20_000
 
 
 @dataclass(frozen=True, slots=True)
 class _Constraint:
     bound: tuple[Ref, ...]
-    holds: Truth
-    assume: Narrowing
+    body: Expr
     clause: Clause
+
+
+@dataclass(frozen=True, slots=True)
+class _Instance:
+    """An invariant about certain names; ``unseen``: one of them has not been seen, and may not be there."""
+
+    formula: Formula
+    clause: Clause
+    unseen: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,110 +52,110 @@ class Conflict:
 
 
 class Constraints:
-    """The invariants of a model, indexed by the variables that they mention."""
+    """The invariants of a model, indexed by the cells that they mention."""
 
-    def __init__(self, world: World, invariants: Iterable[tuple[Expr, Clause]]) -> None:
-        self.world = world
-        self._constraints: list[_Constraint] = []
-        self._triggers: dict[str, list[_Trigger]] = {}
-        self._memo: dict[tuple[Partial, frozenset[Key]], Partial | Conflict] = {}
-        for formula, clause in invariants:
-            for part in _conjuncts(formula):
-                if sum(1 for _ in ex.walk(part)) <= LARGEST:
-                    self._add(part, clause)
-
-    def _add(self, formula: Expr, clause: Clause) -> None:
-        bound, body = (formula.bound, formula.body) if _is_universal(formula) else ((), formula)
-        number = len(self._constraints)
-        self._constraints.append(_Constraint(bound, truth(body), narrowing(body, True), clause))
-        seen = set()
-        for node in ex.walk(body):
-            if isinstance(node, Cell):
-                seen.add((node.variable, tuple(a.name if isinstance(a, Ref) else "" for a in node.args)))
-        for variable, args in sorted(seen):
-            self._triggers.setdefault(variable, []).append((number, args))
+    def __init__(self, ground: Ground, invariants: Iterable[tuple[Expr, Clause]]) -> None:
+        self.ground = ground
+        self.world = ground.world
+        self._constraints = [
+            _constraint(part, clause)
+            for formula, clause in invariants
+            for part in _conjuncts(formula)
+            if sum(1 for _ in ex.walk(part)) <= LARGEST
+        ]
+        self._memo: dict[tuple[Partial, int], Partial | Conflict] = {}
+        self._lasting: dict[int, list[_Instance]] = {}
+        self._passing: dict[int, list[_Instance]] = {}
+        self._counted: dict[str, int] = {}
+        self._fresh = False
 
     def forget(self) -> None:
         """Drop what was remembered: a new name has been seen."""
         self._memo.clear()
+        self._passing.clear()
+        self._fresh = False
 
     def everywhere(self, state: Partial) -> Partial | Conflict:
         """The state narrowed by every instance of every invariant."""
-        return self.after(
-            state,
-            {
-                (s.name, names)
-                for s in self.world.model.signatures.values()
-                for names in self.world.combinations(s.sorts)
-            },
-        )
+        return self._remembered(state, self.world.all)
 
     def consistent(self, states: Iterable[Partial]) -> list[Partial]:
         """The states that no invariant excludes, each narrowed by all of them."""
         return [found for found in map(self.everywhere, states) if not isinstance(found, Conflict)]
 
-    def after(self, state: Partial, changed: Iterable[Key]) -> Partial | Conflict:
-        """The state narrowed by what the changed cells imply, and what that implies in turn."""
-        start = frozenset(changed)
-        if not start:
-            return state
-        memo_key = (state, start)
-        found = self._memo.get(memo_key)
-        if found is None:
-            if len(self._memo) > 20000:
-                self._memo.clear()
-            found = self._memo[memo_key] = self._propagate(state, start)
+    def after(self, state: Partial, before: Partial) -> Partial | Conflict:
+        """The state narrowed by what its changes imply, and what that implies in turn."""
+        return self._remembered(state, self._difference(before, state))
+
+    def _difference(self, before: Partial, after: Partial) -> int:
+        if before.beside is after.beside:
+            return before.bits ^ after.bits
+        found = 0
+        for key in changed(before, after):
+            found |= self.world.spots[key]
         return found
 
-    def _propagate(self, state: Partial, start: frozenset[Key]) -> Partial | Conflict:
-        queue, waiting = deque(sorted(start)), set(start)
-        while queue:
-            key = queue.popleft()
-            waiting.discard(key)
-            for constraint, env in self._instances(key):
-                found = constraint.holds(state, env)
-                if found == YES:
-                    continue
-                narrowed = constraint.assume(state, env, False) if found != NO else []
-                if not narrowed:
-                    if OTHER in env.values():
-                        continue  # it holds of no unseen name: then there is none
-                    return Conflict(constraint.clause)
-                for fresh in _differences(state, narrowed[0]):
-                    if fresh not in waiting:
-                        waiting.add(fresh)
-                        queue.append(fresh)
-                state = narrowed[0]
+    def _remembered(self, state: Partial, start: int) -> Partial | Conflict:
+        if not start:
+            return state
+        key = (state, start)
+        found = self._memo.get(key)
+        if found is None:
+            if len(self._memo) > LARGEST_MEMO:
+                self._memo.clear()
+            found = self._memo[key] = self._propagate(state, start)
+        return found
+
+    def _propagate(self, state: Partial, start: int) -> Partial | Conflict:
+        if not self._fresh:
+            self._make()
+        todo = start
+        while todo:
+            place = self.world.at_bit[(todo & -todo).bit_length() - 1]
+            todo &= ~place.bits
+            for instances in (self._lasting.get(place.shift, ()), self._passing.get(place.shift, ())):
+                for instance in instances:
+                    found = instance.formula.holds(state)
+                    if found == YES:
+                        continue
+                    narrowed = instance.formula.assume(state, True, False) if found != NO else []
+                    if not narrowed:
+                        if instance.unseen:
+                            continue  # it holds of no unseen name: then there is none
+                        return Conflict(instance.clause)
+                    if narrowed[0] is not state:
+                        todo |= self._difference(state, narrowed[0])
+                        state = narrowed[0]
         return state
 
-    def _instances(self, key: Key) -> Iterator[tuple[_Constraint, dict[str, str]]]:
-        variable, names = key
-        for number, args in self._triggers.get(variable, ()):
-            constraint = self._constraints[number]
-            env = _bound(args, names, constraint.bound)
-            if env is None:
+    def _make(self) -> None:
+        """The instances about names seen since the last time, and those that quantify over them."""
+        for constraint in self._constraints:
+            lasting = not quantifies(constraint.body)
+            index = self._lasting if lasting else self._passing
+            for instance in self._made(constraint, self._counted if lasting else {}):
+                for place in self.world.changed(instance.formula.reads):
+                    index.setdefault(place.shift, []).append(instance)
+        self._counted = {sort: len(names) for sort, names in self.world.names.items()}
+        self._fresh = True
+
+    def _made(self, constraint: _Constraint, counted: Mapping[str, int]) -> Iterator[_Instance]:
+        names = [ref.name for ref in constraint.bound]
+        sorts = [ref.of.name for ref in constraint.bound]
+        old = [set(self.world.names[sort][: counted.get(sort, 0)]) for sort in sorts]
+        if counted and not sorts:
+            return
+        for chosen in product(*(self.world.names[sort] for sort in sorts)):
+            if counted and all(name in seen for name, seen in zip(chosen, old, strict=True)):
                 continue
-            free = [ref for ref in constraint.bound if ref.name not in env]
-            for combination in product(*(self.world.names[ref.of.name] for ref in free)):
-                yield constraint, {**env, **{ref.name: n for ref, n in zip(free, combination, strict=True)}}
+            formula = self.ground.formula(constraint.body, dict(zip(names, chosen, strict=True)))
+            if not isinstance(formula, Fixed) or formula.value != YES:
+                yield _Instance(formula, constraint.clause, OTHER in chosen)
 
 
-def _bound(args: tuple[str, ...], names: tuple[str, ...], bound: tuple[Ref, ...]) -> dict[str, str] | None:
-    """The quantified variables that a changed cell's arguments decide; ``None`` where they contradict."""
-    quantified = {ref.name for ref in bound}
-    env: dict[str, str] = {}
-    for arg, name in zip(args, names, strict=True):
-        if arg in quantified and env.setdefault(arg, name) != name:
-            return None
-    return env
-
-
-def _differences(before: Partial, after: Partial) -> list[Key]:
-    return [
-        key
-        for key, value in after.cells.items()
-        if before.cells.get(key) != value and not key[0].startswith("$")
-    ]
+def _constraint(formula: Expr, clause: Clause) -> _Constraint:
+    bound, body = (formula.bound, formula.body) if _is_universal(formula) else ((), formula)
+    return _Constraint(bound, body, clause)
 
 
 def _is_universal(formula: Expr) -> TypeGuard[Quantified]:

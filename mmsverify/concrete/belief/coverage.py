@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from mmsverify.concrete.belief.goal import Goal
 from mmsverify.concrete.belief.partial import Partial
-from mmsverify.concrete.belief.truth import Env, truth
 from mmsverify.concrete.belief.values import YES
 from mmsverify.model.rows import Clause, Row
 
@@ -25,7 +25,12 @@ class Coverage:
         if len({row.id for row in rows}) == 1:
             self.clauses.add(rows[0].clause)
 
-    def shown(self, row: Row, blank: Partial, env: Env) -> None:
+    def shown(self, goal: Goal, blank: Partial) -> None:
         """A message agrees with what is known; ``blank`` is a state of which nothing is."""
-        self.clauses.add(row.clause)
-        self.clauses |= {c.clause for c in row.guard if truth(c.condition)(blank, env) != YES}
+        for row, ways in zip(goal.rows, goal.ways, strict=True):
+            tested = [
+                any(formula.holds(blank) != YES for formula in parts)
+                for parts in zip(*(w.guard for w in ways), strict=True)
+            ]
+            self.clauses.add(row.clause)
+            self.clauses |= {c.clause for c, tests in zip(row.guard, tested, strict=True) if tests}

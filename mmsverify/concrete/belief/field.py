@@ -1,18 +1,17 @@
-"""What can happen unseen, and which of it can wait: steps that touch different cells need no order.
+"""What can happen unseen, and which of it can wait: moves that touch different cells need no order.
 
-A set of steps is an integer with a bit for each. The search takes, in a state, only the steps of a *stubborn
-set* (Valmari): what may remove an obstacle to the event, what may remove an obstacle to that, and whatever
-disturbs or is disturbed by a member that can be taken. Every other step can be moved behind the first
-member that is taken, so that leaving it out loses no state, except as one that is reached after the event.
+A set of moves, like a set of cells, is an integer with bits. The search tries, in a state, only the moves of
+a *stubborn set* (Valmari): what may remove an obstacle to the event, what may remove an obstacle to that, and
+whatever disturbs or is disturbed by a member that can be made. Every other move can be put behind the first
+member that is made, so that leaving it out loses no state, except as one that is reached after the event.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass, field
-from typing import Any
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 
-from mmsverify.concrete.belief.goal import NOTHING, Goal, Patterns, Step
+from mmsverify.concrete.belief.goal import Goal, Ways, obstacle
 from mmsverify.concrete.belief.partial import Partial
 
 Tag = tuple[str, tuple[str, ...]]
@@ -24,64 +23,30 @@ class Move:
     """Something that may happen unseen, once between two events for the names in its tag.
 
     One of ``ways`` is taken. ``bars`` are the tags' names after which it does not happen. ``explains``: it is
-    assumed only where it makes possible what is shown, not where it merely may have happened.
+    assumed only where it makes possible what is shown, not where it merely may have happened. ``stands``
+    tells what stands against it, where that is not in its rows.
     """
 
     tag: Tag
-    ways: tuple[Step, ...]
-    reads: Patterns
-    writes: Patterns
+    ways: Ways
+    reads: int
+    writes: int
     bars: frozenset[str] = frozenset()
     explains: bool = False
-    enabled: Any = None
+    stands: Callable[[Partial], int | None] | None = None
 
-    def obstacle(self, state: Partial) -> Patterns | None:
-        """What stands against it in the state; ``None`` if nothing does for certain."""
-        if self.enabled is not None:
-            return self.enabled(state)  # type: ignore[no-any-return]
-        found = [way.obstacle(state) for way in self.ways]
-        return None if None in found else NOTHING.union(*(f for f in found if f is not None))
+    def obstacle(self, state: Partial) -> int | None:
+        """The cells that stand against it in the state; ``None`` if it may be made."""
+        return obstacle(self.ways, state) if self.stands is None else self.stands(state)
 
 
-def move(tag: Tag, ways: Sequence[Step], bars: Iterable[str] = (), *, explains: bool = False) -> Move:
-    """The move that takes one of the steps."""
-    return Move(
-        tag,
-        tuple(ways),
-        NOTHING.union(*(way.reads for way in ways)),
-        NOTHING.union(*(way.writes for way in ways)),
-        frozenset(bars),
-        explains,
-    )
-
-
-@dataclass(slots=True)
-class _Index:
-    """Which steps touch a cell."""
-
-    by_variable: dict[str, list[tuple[tuple[str | None, ...], int]]] = field(default_factory=dict)
-    _memo: dict[Patterns, int] = field(default_factory=dict)
-
-    def add(self, patterns: Patterns, bit: int) -> None:
-        for variable, args in patterns:
-            self.by_variable.setdefault(variable, []).append((args, bit))
-
-    def touching(self, patterns: Patterns) -> int:
-        """The steps that touch one of the cells."""
-        found = self._memo.get(patterns)
-        if found is None:
-            found = self._memo[patterns] = self._touching(patterns)
-        return found
-
-    def _touching(self, patterns: Patterns) -> int:
-        found = 0
-        for variable, args in patterns:
-            for mine, bit in self.by_variable.get(variable, ()):
-                if not found & bit and all(
-                    a is None or b is None or a == b for a, b in zip(mine, args, strict=True)
-                ):
-                    found |= bit
-        return found
+def move(tag: Tag, ways: Ways, bars: Iterable[str] = (), *, explains: bool = False) -> Move:
+    """The move that takes one of the ways."""
+    reads = writes = 0
+    for way in ways:
+        reads |= way.reads
+        writes |= way.writes
+    return Move(tag, ways, reads, writes, frozenset(bars), explains)
 
 
 class Field:
@@ -89,20 +54,18 @@ class Field:
 
     def __init__(self, moves: Sequence[Move]) -> None:
         self.moves = moves
-        self._readers, self._writers = _Index(), _Index()
         self._tags: dict[Tag, int] = {}
         self._named: dict[str, int] = {}
         self._barred: dict[str, int] = {}
         self._disturbed: list[int | None] = [None] * len(moves)
+        self._writers: dict[int, int] = {}
         self._gone: dict[History, int] = {}
         self._marked = self._explaining = 0
         for number, each in enumerate(moves):
             bit = 1 << number
-            self._readers.add(each.reads, bit)
-            self._writers.add(each.writes, bit)
             self._tags[each.tag] = self._tags.get(each.tag, 0) | bit
             self._named[each.tag[0]] = self._named.get(each.tag[0], 0) | bit
-            if each.enabled is not None:
+            if each.stands is not None:
                 self._marked |= bit
             if each.explains:
                 self._explaining |= bit
@@ -130,24 +93,24 @@ class Field:
         while todo:
             number = (todo & -todo).bit_length() - 1
             members |= 1 << number
-            obstacle = self.moves[number].obstacle(state)
-            if obstacle is None:
+            stands = self.moves[number].obstacle(state)
+            if stands is None:
                 tried |= 1 << number
                 disturb |= self._disturbing(number)
             else:
-                todo |= self._writers.touching(obstacle)
+                todo |= self._writing(stands)
             todo &= ~members & ~gone
         beside, gone = 0, gone | self._explaining
         disturb &= ~members & ~gone
         while disturb:
             number = (disturb & -disturb).bit_length() - 1
             members |= 1 << number
-            obstacle = self.moves[number].obstacle(state)
-            if obstacle is None:
+            stands = self.moves[number].obstacle(state)
+            if stands is None:
                 beside |= 1 << number
                 disturb |= self._disturbing(number)
             else:
-                disturb |= self._writers.touching(obstacle)
+                disturb |= self._writing(stands)
             disturb &= ~members & ~gone
         tried |= beside & self._marked
         return self._listed(tried), self._listed(beside & ~self._marked)
@@ -158,9 +121,22 @@ class Field:
     def _roots(self, state: Partial, goal: Goal) -> int:
         found = 0
         for lets, takes, writes in goal.wants(state):
-            found |= self._writers.touching(lets)
-            found |= self._writers.touching(takes) | self._writers.touching(writes)
-            found |= self._readers.touching(writes)
+            found |= self._writing(lets | takes | writes)
+            if writes:
+                for number, each in enumerate(self.moves):
+                    if each.reads & writes:
+                        found |= 1 << number
+        return found
+
+    def _writing(self, cells: int) -> int:
+        """The moves that may change one of the cells."""
+        found = self._writers.get(cells)
+        if found is None:
+            found = 0
+            for number, each in enumerate(self.moves):
+                if each.writes & cells:
+                    found |= 1 << number
+            self._writers[cells] = found
         return found
 
     def _disturbing(self, number: int) -> int:
@@ -168,11 +144,12 @@ class Field:
         found = self._disturbed[number]
         if found is None:
             mine = self.moves[number]
-            found = self._writers.touching(mine.reads) | self._writers.touching(mine.writes)
-            found |= self._readers.touching(mine.writes)
-            found |= self._tags[mine.tag] | self._barred.get(mine.tag[0], 0)
+            found = self._tags[mine.tag] | self._barred.get(mine.tag[0], 0)
             for name in mine.bars:
                 found |= self._named.get(name, 0)
+            for other, each in enumerate(self.moves):
+                if each.writes & (mine.reads | mine.writes) or each.reads & mine.writes:
+                    found |= 1 << other
             self._disturbed[number] = found
         return found
 

@@ -7,85 +7,60 @@ add nothing.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
-from mmsverify.concrete.belief.compiled import CompiledRow, compiled
 from mmsverify.concrete.belief.partial import Partial
-from mmsverify.concrete.belief.patterns import Pattern, at
-from mmsverify.concrete.belief.truth import Env
-from mmsverify.concrete.belief.values import NO, YES
+from mmsverify.concrete.belief.ready import Ready, Rows
+from mmsverify.concrete.belief.values import NO, YES, Env
 from mmsverify.model.rows import Row
 
-Patterns = frozenset[Pattern]
-NOTHING: Patterns = frozenset()
+Ways = tuple[Ready, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Step:
-    """A row in an environment, with the cells that each of its conditions and its updates touch."""
+def obstacle(ways: Ways, state: Partial) -> int | None:
+    """The cells of conditions that certainly fail, one for each way; ``None`` where some way may be open."""
+    found = 0
+    for way in ways:
+        for formula, needs in zip(way.guard, way.needs, strict=True):
+            if formula.holds(state) == NO:
+                found |= needs
+                break
+        else:
+            return None
+    return found
 
-    row: CompiledRow
-    env: Env
-    needs: tuple[Patterns, ...]
-    takes: Patterns
-    writes: Patterns
 
-    @property
-    def reads(self) -> Patterns:
-        """The cells that its conditions and updates read."""
-        return self.takes.union(*self.needs)
-
-    def obstacle(self, state: Partial) -> Patterns | None:
-        """What a condition that certainly fails reads; ``None`` where none does."""
-        if self.row.chosen:
-            return self.reads if self.row.impossible(state, self.env) else None
-        for test, needs in zip(self.row.tests, self.needs, strict=True):
-            if test(state, self.env) == NO:
-                return needs
+def doubts(ways: Ways, state: Partial) -> int | None:
+    """The cells of conditions that are open; ``None`` where the row certainly applies, in its only way."""
+    if len(ways) == 1 and all(formula.holds(state) == YES for formula in ways[0].guard):
         return None
-
-    def doubts(self, state: Partial) -> Patterns:
-        """What the conditions read that hold in some of the states that ``state`` stands for, not in all."""
-        if self.row.chosen:
-            return self.reads
-        return NOTHING.union(
-            *(
-                needs
-                for test, needs in zip(self.row.tests, self.needs, strict=True)
-                if test(state, self.env) != YES
-            )
-        )
-
-
-def step(row: Row, env: Env) -> Step:
-    """The row with the names of an environment."""
-    ready = compiled(row)
-    return Step(
-        ready,
-        env,
-        tuple(at(needs, env) for needs in ready.conditions),
-        at(ready.takes, env),
-        at(ready.writes, env),
-    )
+    found = 0
+    for way in ways:
+        for formula, needs in zip(way.guard, way.needs, strict=True):
+            if formula.holds(state) != YES or len(ways) > 1:
+                found |= needs
+    return found
 
 
 class Goal:
     """The rows that may explain an event, in its environment."""
 
-    def __init__(self, rows: Sequence[Row], env: Env) -> None:
+    def __init__(self, rows: Sequence[Row], env: Env, made: Rows) -> None:
         self.env = env
-        self.steps = [step(row, env) for row in rows]
+        self.rows = tuple(rows)
+        self.ways = [made.ready(row, env) for row in rows]
         self.groups = _alike(tuple(map(_Same, rows)))
         self.key = (rows[0].id if rows else "", rows[0].answer if rows else "", frozenset(env.items()))
-        self.reads = NOTHING.union(*(each.reads for each in self.steps))
+        self.reads = 0
+        for way in (way for ways in self.ways for way in ways):
+            self.reads |= way.reads
 
-    def impossible(self, state: Any) -> bool:
+    def impossible(self, state: Partial) -> bool:
         """Whether the state certainly contradicts it."""
-        return all(each.row.impossible(state, self.env) for each in self.steps)
+        return all(obstacle(ways, state) is not None for ways in self.ways)
 
-    def wants(self, state: Partial) -> Iterator[tuple[Patterns, Patterns, Patterns]]:
+    def wants(self, state: Partial) -> Iterator[tuple[int, int, int]]:
         """What must come before the event for it to be another one than in this state.
 
         Each as three sets of cells: those whose change may let a row apply, those that its updates read,
@@ -93,17 +68,22 @@ class Goal:
         may as well come after.
         """
         for group in self.groups:
-            steps = [self.steps[i] for i in group]
-            obstacles = [each.obstacle(state) for each in steps]
-            possible = [s for s, obstacle in zip(steps, obstacles, strict=True) if obstacle is None]
-            doubts = [each.doubts(state) for each in possible]
-            takes, writes = steps[0].takes, steps[0].writes
-            if NOTHING in doubts:
-                yield NOTHING, takes, writes
-                continue
-            if possible:
-                yield NOTHING.union(*doubts), takes, writes
-            yield NOTHING.union(*(o for o in obstacles if o is not None)), NOTHING, NOTHING
+            ways = [self.ways[i] for i in group]
+            takes = writes = 0
+            for way in (way for each in ways for way in each):
+                takes |= way.takes
+                writes |= way.writes
+            obstacles = [obstacle(each, state) for each in ways]
+            open_ways = [each for each, o in zip(ways, obstacles, strict=True) if o is None]
+            doubted = [doubts(each, state) for each in open_ways]
+            lets = 0
+            if None not in doubted:
+                for cells in (*obstacles, *doubted):
+                    lets |= cells or 0
+            if open_ways:
+                yield lets, takes, writes
+            else:
+                yield lets, 0, 0
 
 
 class _Same:

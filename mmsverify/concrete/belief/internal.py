@@ -8,20 +8,19 @@ panel holds control, what the panel can change is not known.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from itertools import product
 from typing import Any, Literal
 
-from mmsverify.concrete.belief.act import changed, idle, maybe, take
+from mmsverify.concrete.belief.act import idle, maybe, take
 from mmsverify.concrete.belief.constraints import Conflict, Constraints
 from mmsverify.concrete.belief.field import Field, History, Move, move
-from mmsverify.concrete.belief.goal import NOTHING, Goal, Patterns, step
-from mmsverify.concrete.belief.horizon import Drifting, Reach, reach
-from mmsverify.concrete.belief.partial import DECIDED, OTHER, Partial, distinct
-from mmsverify.concrete.belief.patterns import Pattern, overlap, touches
-from mmsverify.concrete.belief.truth import Env
-from mmsverify.concrete.belief.values import NO, YES, within
+from mmsverify.concrete.belief.goal import Goal
+from mmsverify.concrete.belief.horizon import Reach, reach
+from mmsverify.concrete.belief.partial import DECIDED, OTHER, Key, Partial, changed, distinct
+from mmsverify.concrete.belief.ready import Rows
+from mmsverify.concrete.belief.values import NO, YES, Env, within
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Row
 from mmsverify.model.sorts import BOOL, ElementSort
@@ -32,7 +31,7 @@ Reached = tuple[Partial, History]
 
 PANEL = "panel"
 PERFORMED = "performed"
-CONTROL: Pattern = ("local_control", ())
+CONTROL: Key = ("local_control", ())
 LARGEST = 4000
 LARGEST_MEMO = 20000
 MOST_ROUNDS = 6
@@ -59,13 +58,13 @@ class Outstanding:
 
 def decided(state: Partial, slot: str) -> str | None:
     """The answer that the responder has already decided on for a request, though no message shows it yet."""
-    mark = state.cells.get((DECIDED, (slot,)))
-    return str(next(iter(mark))) if isinstance(mark, frozenset) else None
+    mark: str | None = state.beside.get((DECIDED, (slot,)))
+    return mark
 
 
 def undecided(state: Partial, slot: str) -> Partial:
     """The state without the mark of that decision."""
-    return state.without([(DECIDED, (slot,))]) if (DECIDED, (slot,)) in state.cells else state
+    return state.without([(DECIDED, (slot,))]) if (DECIDED, (slot,)) in state.beside else state
 
 
 @dataclass
@@ -74,6 +73,7 @@ class Unseen:
 
     model: ModelData
     constraints: Constraints
+    made: Rows
     _memo: dict[tuple[Any, ...], list[Partial]] = field(default_factory=dict)
     _fields: dict[tuple[Any, ...], Field] = field(default_factory=dict)
     _horizons: dict[tuple[Any, ...], Reach] = field(default_factory=dict)
@@ -143,7 +143,7 @@ class Unseen:
             for after in self._made(each, state):
                 if each.explains and not _explained(state, after, moves, goal):
                     continue
-                if not goal.impossible(Drifting(after, horizon)):
+                if not goal.impossible(horizon.drifted(after)):
                     yield after, history
 
     def _made(self, each: Move, state: Partial) -> Iterator[Partial]:
@@ -153,19 +153,21 @@ class Unseen:
                 yield forgotten
             return
         for way in each.ways:
-            if each.tag[0] != PERFORMED and idle(way.row.row, state, way.env):
+            if each.tag[0] != PERFORMED and idle(way, state):
                 continue
-            for after in take(way.row.row, state, way.env, self.constraints)[0]:
-                if each.tag[0] == PERFORMED:
-                    yield after.put((DECIDED, each.tag[1]), frozenset([way.row.row.answer]))
-                else:
-                    yield after
+            for after in take([way], state, self.constraints)[0]:
+                yield after.put((DECIDED, each.tag[1]), way.row.answer) if each.tag[0] == PERFORMED else after
 
     def _anything(self, state: Partial, moves: Field) -> list[Partial]:
         """Too much may have happened to follow it step by step: nothing is known of what it could change."""
-        changed = frozenset(variable for each in moves.moves for variable, _ in each.writes)
-        found = self.constraints.everywhere(state.forget(changed | self._panel))
+        touched = frozenset(key[0] for key in self._cells(each.writes for each in moves.moves))
+        found = self.constraints.everywhere(state.forget(touched | self._panel))
         return [] if isinstance(found, Conflict) else [found]
+
+    def _cells(self, sets: Iterable[int]) -> Iterator[Key]:
+        for cells in sets:
+            for place in self.constraints.world.changed(cells):
+                yield place.key
 
     def _joined(self, found: Sequence[Reached]) -> Iterator[Reached]:
         """The states reached in as many steps, joined where that loses nothing.
@@ -188,10 +190,9 @@ class Unseen:
         if found is None:
             gone = moves.gone(key[1])
             left = [each for number, each in enumerate(moves.moves) if not gone >> number & 1]
-            blank = Partial(self.constraints.world, {})
-            found = reach(((way.row.row, way.env) for each in left for way in each.ways), blank)
+            found = reach((way for each in left for way in each.ways), self.constraints.world)
             if any(each.tag[0] == PANEL for each in left):
-                found |= {variable: blank.world.full[variable] for variable in self._panel}
+                found.anything(self.constraints.world, self._panel)
             self._horizons[key] = found
         return found
 
@@ -199,24 +200,39 @@ class Unseen:
 
     def _field(self, evidence: Evidence, asked: tuple[Outstanding, ...], goal: Goal) -> Field:
         # RP-18: local control was TRUE only where the recording shows it; it does not come and go unseen.
-        control = overlap(goal.reads, [CONTROL])
+        control = bool(self.constraints.world.spots.get(CONTROL, 0) & goal.reads)
         key = (evidence, asked, control)
         if key not in self._fields:
             rows = [r for r in self._rows[evidence] if control or CONTROL[0] not in r.writes]
-            self._fields[key] = Field([*self._moves(rows), *map(_performing, asked), *self._at_panel()])
+            self._fields[key] = Field([*self._moves(rows), *map(self._performing, asked), *self._at_panel()])
         return self._fields[key]
 
     def _moves(self, rows: Sequence[Row]) -> Iterator[Move]:
         for row in rows:
             for names, envs in self._bindings(row).items():
-                steps = [step(row, env) for env in envs]
-                yield move((row.name, names), steps, row.never_after, explains=row.explains == "observation")
+                ways = tuple(way for env in envs for way in self.made.ready(row, env))
+                explains = row.explains == "observation"
+                yield move((row.name, names), ways, row.never_after, explains=explains)
+
+    def _performing(self, asked: Outstanding) -> Move:
+        """A request may be performed at any instant before its response."""
+        ways = tuple(way for row in asked.rows for way in self.made.ready(row, asked.env))
+        made = move((PERFORMED, (asked.slot,)), ways)
+
+        def stands(state: Partial) -> int | None:
+            return 0 if decided(state, asked.slot) is not None else made.obstacle(state)
+
+        return replace(made, stands=stands)
 
     def _at_panel(self) -> Iterator[Move]:
         if self._panel:
-            arities = self.model.signatures
-            writes = frozenset((name, (None,) * len(arities[name].sorts)) for name in self._panel)
-            yield Move((PANEL, ()), (), frozenset([CONTROL]), writes, enabled=_panel_acts)
+            world = self.constraints.world
+            control = world.spots[CONTROL]
+
+            def stands(state: Partial) -> int | None:
+                return None if state.get(CONTROL) == YES else control
+
+            yield Move((PANEL, ()), (), control, world.mask(self._panel), stands=stands)
 
     def _bindings(self, row: Row) -> dict[tuple[str, ...], list[dict[str, Any]]]:
         """Names for parameters that are elements, both values for Booleans; any other choice stays open."""
@@ -244,37 +260,25 @@ def _blurred(state: Partial, beside: Sequence[Move], constraints: Constraints) -
         before = state
         rounds += 1
         for each in beside:
-            for way in each.ways:
-                if way.obstacle(state) is None:
-                    state = maybe(way.row.row, state, way.env, constraints)
+            if each.obstacle(state) is None:
+                state = maybe(each.ways, state, constraints)
         if rounds > MOST_ROUNDS:
-            return state.forget(frozenset(variable for each in beside for variable, _ in each.writes))
+            world = state.world
+            return state.forget(place.key[0] for each in beside for place in world.changed(each.writes))
     return state
 
 
 def _explained(before: Partial, after: Partial, moves: Field, goal: Goal) -> bool:
     """Whether a move makes something possible that was not: what the event reads, or another move."""
-    keys = [key for key in changed(before, after) if not within(after.get(key), before.get(key))]
-    return touches(goal.reads, keys) or any(
+    new = 0
+    for key in changed(before, after):
+        if not within(after.get(key), before.get(key)):
+            new |= before.world.spots[key]
+    return bool(new & goal.reads) or any(
         each.obstacle(before) is not None and each.obstacle(after) is None
         for each in moves.moves
-        if touches(each.reads, keys)
+        if each.reads & new
     )
-
-
-def _performing(asked: Outstanding) -> Move:
-    """A request may be performed at any instant before its response."""
-    steps = tuple(step(row, asked.env) for row in asked.rows)
-    made = move((PERFORMED, (asked.slot,)), steps)
-
-    def obstacle(state: Partial) -> Patterns | None:
-        return NOTHING if decided(state, asked.slot) is not None else made.obstacle(state)
-
-    return Move(made.tag, made.ways, made.reads, made.writes, enabled=obstacle)
-
-
-def _panel_acts(state: Partial) -> Patterns | None:
-    return None if state.get(CONTROL) == YES else frozenset([CONTROL])  # type: ignore[arg-type]
 
 
 def _covers(old: Reached, new: Reached) -> bool:

@@ -9,10 +9,11 @@ from collections.abc import Iterator, Sequence
 
 from mmsverify.concrete.belief.act import settle, take, update
 from mmsverify.concrete.belief.constraints import Conflict, Constraints
-from mmsverify.concrete.belief.partial import UNSEEN, Partial, distinct
-from mmsverify.concrete.belief.truth import Env
+from mmsverify.concrete.belief.goal import Goal
+from mmsverify.concrete.belief.partial import UNSEEN, Key, Partial, distinct
+from mmsverify.concrete.belief.values import Env
 from mmsverify.model.model import ModelData
-from mmsverify.model.rows import MINUS, Row
+from mmsverify.model.rows import MINUS
 
 MOST_DOUBTED = 8
 
@@ -25,22 +26,19 @@ def rigid(model: ModelData) -> frozenset[str]:
 def sight_lost(states: Sequence[Partial], constraints: Constraints) -> list[Partial]:
     """The states with nothing known of what can change."""
     lasting = rigid(constraints.world.model)
-    return constraints.consistent(
-        distinct(Partial(s.world, {k: v for k, v in s.cells.items() if k[0] in lasting}) for s in states)
-    )
+    return constraints.consistent(distinct(state.keep(lasting) for state in states))
 
 
-def forced(
-    rows: Sequence[Row], states: Sequence[Partial], env: Env, constraints: Constraints
-) -> list[Partial]:
+def forced(goal: Goal, states: Sequence[Partial], constraints: Constraints) -> list[Partial]:
     """The effects of the observed answer, its guards ignored."""
     found: list[Partial] = []
-    for row in rows[:1] if rows and rows[0].answer == MINUS else rows:
+    refused = bool(goal.rows) and goal.rows[0].answer == MINUS
+    for way in (way for ways in (goal.ways[:1] if refused else goal.ways) for way in ways):
         for state in states:
-            after = update(row, state, env)
+            after = update(way, state).without_choices()
             settled = settle(state, after, constraints)
             found.append(
-                _without_names(after, env, constraints) if isinstance(settled, Conflict) else settled
+                _without_names(after, goal.env, constraints) if isinstance(settled, Conflict) else settled
             )
     return found
 
@@ -49,12 +47,11 @@ def _without_names(state: Partial, env: Env, constraints: Constraints) -> Partia
     """The state with nothing known of the names in the event, and of what belongs to no name."""
     names = set(_names(env))
     lasting = rigid(state.world.model)
-    gone = [
-        key
-        for key in state.cells
-        if key[0] not in lasting and (not key[1] or names.intersection(key[1]) or key[0] == UNSEEN)
-    ]
-    found = constraints.everywhere(state.without(gone))
+
+    def doubted(key: Key) -> bool:
+        return key[0] not in lasting and (not key[1] or bool(names.intersection(key[1])) or key[0] == UNSEEN)
+
+    found = constraints.everywhere(state.forget_cells(doubted))
     return state.forget(frozenset(state.world.full) - lasting) if isinstance(found, Conflict) else found
 
 
@@ -66,12 +63,12 @@ def _names(env: Env) -> Iterator[str]:
             yield from given
 
 
-def learned_anew(row: Row, states: Sequence[Partial], env: Env, constraints: Constraints) -> list[Partial]:
+def learned_anew(goal: Goal, states: Sequence[Partial], constraints: Constraints) -> list[Partial]:
     """The states if a message that contradicts them is true: what it reads is forgotten, then learned."""
     learned: list[Partial] = []
-    doubted = row.reads - rigid(constraints.world.model)
+    doubted = frozenset[str]().union(*(row.reads for row in goal.rows)) - rigid(constraints.world.model)
     for state in states[:MOST_DOUBTED]:
         blank = constraints.everywhere(state.forget(doubted))
         if not isinstance(blank, Conflict):
-            learned += take(row, blank, env, constraints)[0]
+            learned += [after for ways in goal.ways for after in take(ways, blank, constraints)[0]]
     return learned

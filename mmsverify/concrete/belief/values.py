@@ -1,20 +1,35 @@
 """What is known of one value: a set of truth values or of enumeration members, or an interval of integers.
 
-Truth values are bit masks (``NO``, ``YES``, ``EITHER``), so that the hot path stays cheap. Every operation
-errs to the larger set: what is not known stays possible.
+A set is a mask with a bit for each value, in the order of its sort: FALSE before TRUE, members as they are
+declared. So the hot path is made of operations on machine words. Every operation errs to the larger set: what
+is not known stays possible.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from functools import cache
 from typing import Any
 
-from mmsverify.model.sorts import BoolSort, EnumSort, IntSort, Sort
+from mmsverify.model.sorts import BoolSort, Enumeration, EnumSort, IntSort, Sort
 
 NO, YES, EITHER = 1, 2, 3
 
 Interval = tuple[int | None, int | None]
-Known = int | frozenset[Any] | Interval
-"""A mask, a set of members, or an interval whose open ends are ``None``."""
+Known = int | Interval
+"""A mask, or an interval whose open ends are ``None``."""
+
+
+class Absent:
+    """The value of an optional parameter that is not given."""
+
+
+ABSENT = Absent()
+Env = Mapping[str, Any]
+"""The values of parameters by name.
+
+A value is the name of an element, what is known of it, a set of names (``None``: any set), or ``ABSENT``.
+"""
 
 
 def everything(sort: Sort) -> Known:
@@ -23,7 +38,7 @@ def everything(sort: Sort) -> Known:
         case BoolSort():
             return EITHER
         case EnumSort(members=members):
-            return frozenset(members)
+            return sum(map(_bit, members))
         case IntSort(low=low, high=high):
             return (low, high)
     raise TypeError(f"{sort} has no values of its own")
@@ -33,18 +48,21 @@ def exactly(value: Any) -> Known:
     """The one value."""
     if isinstance(value, bool):
         return YES if value else NO
-    return (value, value) if isinstance(value, int) else frozenset([value])
+    return (value, value) if isinstance(value, int) else _bit(value)
+
+
+@cache
+def _bit(member: Enumeration) -> int:
+    return 1 << list(type(member)).index(member)
 
 
 def meet(left: Known, right: Known) -> Known | None:
     """What both allow; ``None`` if nothing."""
     if isinstance(left, int) and isinstance(right, int):
         return left & right or None
-    if isinstance(left, frozenset) and isinstance(right, frozenset):
-        return left & right or None
-    assert isinstance(left, tuple)
-    assert isinstance(right, tuple)
-    low, high = _higher(left[0], right[0]), _lower(left[1], right[1])
+    (a, b), (c, d) = interval(left), interval(right)
+    low = c if a is None else a if c is None or c < a else c
+    high = d if b is None else b if d is None or d > b else d
     return None if low is not None and high is not None and low > high else (low, high)
 
 
@@ -52,12 +70,9 @@ def join(left: Known, right: Known) -> Known:
     """What either allows (of intervals: the smallest interval around both)."""
     if isinstance(left, int) and isinstance(right, int):
         return left | right
-    if isinstance(left, frozenset) and isinstance(right, frozenset):
-        return left | right
-    assert isinstance(left, tuple)
-    assert isinstance(right, tuple)
-    low = None if left[0] is None or right[0] is None else min(left[0], right[0])
-    high = None if left[1] is None or right[1] is None else max(left[1], right[1])
+    (a, b), (c, d) = interval(left), interval(right)
+    low = None if a is None or c is None else min(a, c)
+    high = None if b is None or d is None else max(b, d)
     return (low, high)
 
 
@@ -65,21 +80,17 @@ def within(left: Known, right: Known) -> bool:
     """Whether everything that ``left`` allows, ``right`` allows."""
     if isinstance(left, int) and isinstance(right, int):
         return left | right == right
-    return join(left, right) == right
+    return left == right or join(left, right) == right
 
 
 def without(known: Known, value: Known) -> Known | None:
     """What remains when the single value ``value`` is excluded; ``None`` if nothing does."""
     if isinstance(known, int) and isinstance(value, int):
         return known & ~value or None
-    if isinstance(known, frozenset) and isinstance(value, frozenset):
-        return known - value or None
-    assert isinstance(known, tuple)
-    assert isinstance(value, tuple)
-    low, high = known
-    if low == value[0] and low is not None:
+    (low, high), (gone, _) = interval(known), interval(value)
+    if low == gone and low is not None:
         low += 1
-    if high == value[0] and high is not None:
+    if high == gone and high is not None:
         high -= 1
     return None if low is not None and high is not None and low > high else (low, high)
 
@@ -87,8 +98,8 @@ def without(known: Known, value: Known) -> Known | None:
 def single(known: Known) -> bool:
     """Whether exactly one value is left."""
     if isinstance(known, int):
-        return known != EITHER
-    return len(known) == 1 if isinstance(known, frozenset) else known[0] is not None and known[0] == known[1]
+        return known & (known - 1) == 0
+    return known[0] is not None and known[0] == known[1]
 
 
 def same(left: Known, right: Known) -> int:
@@ -121,21 +132,11 @@ def above(known: Interval, limit: int | None) -> Interval | None:
     return known if limit is None else meet(known, (limit + 1, None))  # type: ignore[return-value]
 
 
-def plain(known: Known) -> list[Any]:
+def plain(known: Known, sort: Sort) -> list[Any]:
     """The values as results print them, sorted; an open interval has none to list."""
-    if isinstance(known, int):
-        return [value for mask, value in ((NO, False), (YES, True)) if known & mask]
-    if isinstance(known, frozenset):
-        return sorted(str(value) for value in known)
-    low, high = known
-    if low is None or high is None or high - low > 15:
-        return []
-    return list(range(low, high + 1))
-
-
-def _higher(left: int | None, right: int | None) -> int | None:
-    return right if left is None else left if right is None else max(left, right)
-
-
-def _lower(left: int | None, right: int | None) -> int | None:
-    return right if left is None else left if right is None else min(left, right)
+    if isinstance(known, tuple):
+        low, high = known
+        return [] if low is None or high is None or high - low > 15 else list(range(low, high + 1))
+    if isinstance(sort, EnumSort):
+        return sorted(str(member) for member in sort.members if known & _bit(member))
+    return [value for mask, value in ((NO, False), (YES, True)) if known & mask]

@@ -1,0 +1,114 @@
+"""Rows with names resolved: conditions and updates as nodes, and the cells that they touch.
+
+Making a row ready is done once for each environment; taking it is the hot path.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+from mmsverify.concrete.belief.ground import Ground, element
+from mmsverify.concrete.belief.nodes import Fixed, Formula, Value
+from mmsverify.concrete.belief.partial import OTHER, Key
+from mmsverify.concrete.belief.values import ABSENT, NO, Env
+from mmsverify.model.declare import Assign
+from mmsverify.model.expr import Ref
+from mmsverify.model.rows import Row
+from mmsverify.model.sorts import ElementSort
+
+LARGEST_MEMO = 20_000
+
+
+@dataclass(frozen=True, slots=True)
+class Write:
+    """One update of one cell, where a condition holds.
+
+    ``vague``: the cell stands for many names, of which only one is meant.
+    """
+
+    key: Key
+    where: Formula
+    value: Value
+    vague: bool
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Ready:
+    """A row in an environment: its conjuncts, its updates, and the bits of the cells that they touch.
+
+    ``needs`` are the cells that each conjunct reads, ``takes`` those that the updates read. ``unseen``: a name
+    that the responder chooses is one that has not been seen; what is known of all of them need not be its own.
+    """
+
+    row: Row
+    env: Env
+    guard: tuple[Formula, ...]
+    updates: tuple[Write, ...]
+    needs: tuple[int, ...]
+    takes: int
+    writes: int
+    unseen: bool
+
+    @property
+    def reads(self) -> int:
+        """The cells that its conjuncts and updates read."""
+        found = self.takes
+        for needs in self.needs:
+            found |= needs
+        return found
+
+
+class Rows:
+    """Makes rows ready, and remembers them."""
+
+    def __init__(self, ground: Ground) -> None:
+        self.ground = ground
+        self._memo: dict[tuple[int, frozenset[Any]], tuple[Row, tuple[Ready, ...]]] = {}
+
+    def forget(self) -> None:
+        """Drop what was made: a new name has been seen."""
+        self.ground.forget()
+        self._memo.clear()
+
+    def ready(self, row: Row, env: Env) -> tuple[Ready, ...]:
+        """The row in the environment, once for each choice of elements that no event shows."""
+        key = (id(row), frozenset(env.items()))
+        found = self._memo.get(key)
+        if found is None or found[0] is not row:
+            if len(self._memo) > LARGEST_MEMO:
+                self._memo.clear()
+            found = self._memo[key] = (row, tuple(self._ready(row, each) for each in self._chosen(row, env)))
+        return found[1]
+
+    def _chosen(self, row: Row, env: Env) -> Iterator[Env]:
+        chosen = [c for c in row.choices if isinstance(c, Ref) and isinstance(c.of, ElementSort)]
+        for names in self.ground.world.combinations([ref.of for ref in chosen]):
+            yield {**env, **dict(zip((ref.name for ref in chosen), names, strict=True))} if chosen else env
+
+    def _ready(self, row: Row, env: Env) -> Ready:
+        guard = tuple(self.ground.formula(conjunct.condition, env) for conjunct in row.guard)
+        updates = tuple(write for assign in row.assigns for write in self._writes(assign, env))
+        takes = writes = 0
+        for update in updates:
+            takes |= update.where.reads | update.value.reads
+            writes |= self.ground.world.spots[update.key]
+        chosen = (c.name for c in row.choices if isinstance(c, Ref) and isinstance(c.of, ElementSort))
+        unseen = any(env.get(name) == OTHER for name in chosen)
+        return Ready(row, env, guard, updates, tuple(f.reads for f in guard), takes, writes, unseen)
+
+    def _writes(self, assign: Assign, env: Env) -> Iterator[Write]:
+        bound = {ref.name for ref in assign.bound}
+        vague = any(
+            a.name not in bound and env.get(a.name) == OTHER for a in assign.args if isinstance(a, Ref)
+        )
+        for names in self.ground.world.combinations([ref.of for ref in assign.bound]):
+            inner = {**env, **dict(zip((ref.name for ref in assign.bound), names, strict=True))}
+            where = self.ground.formula(assign.where, inner)
+            if isinstance(where, Fixed) and where.value == NO:
+                continue
+            args = tuple([element(arg, inner) for arg in assign.args])
+            value = self.ground.value(assign.value, inner)
+            if ABSENT not in args and value is not None:
+                yield Write((assign.variable, args), where, value, vague)
