@@ -125,16 +125,13 @@ def _written(updates: Iterable[Write], state: Partial) -> dict[Key, Known]:
         holds = write.where.holds(state)
         if holds == NO:
             continue
-        if holds == YES:
-            known = write.value.known(state)
-        else:
-            known = _perhaps(write, state, cells)
+        known = write.value.known(state) if holds == YES else _perhaps(write, state, cells)
         cells[write.key] = join(known, state.get(write.key)) if write.vague else known
     return cells
 
 
 def _perhaps(write: Write, state: Partial, cells: Mapping[Key, Known]) -> Known:
-    """The value where the condition holds, or the old one where it does not: it may speak of the cell itself."""
+    """The new value where the condition holds, the old one where it does not: it may speak of the cell."""
     key = write.key
     values = [write.value.known(met) for met in write.where.assume(state, True, False)]
     values += [cells.get(key, spared.get(key)) for spared in write.where.assume(state, False, False)]

@@ -424,10 +424,7 @@ class Same(Formula):
 def _compared(state: Partial, slot: Slot, theirs: Known, want: bool) -> Partial | None:
     """The slot restricted to a value, or away from the one that it is."""
     now = slot.known(state)
-    if want:
-        left = meet(now, theirs)
-    else:
-        left = without(now, theirs) if single(theirs) else now
+    left = meet(now, theirs) if want else without(now, theirs) if single(theirs) else now
     if left is None:
         return None
     return state if left == now else slot.put(state, left)

@@ -38,8 +38,8 @@ class Write:
 class Ready:
     """A row in an environment: its conjuncts, its updates, and the bits of the cells that they touch.
 
-    ``needs`` are the cells that each conjunct reads, ``takes`` those that the updates read. ``unseen``: a name
-    that the responder chooses is one that has not been seen; what is known of all of them need not be its own.
+    ``needs`` are the cells that each conjunct reads, ``takes`` those that the updates read. ``unseen``: the
+    responder chooses a name that has not been seen; what is known of all of them need not be its own.
     """
 
     row: Row
