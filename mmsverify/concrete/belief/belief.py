@@ -19,9 +19,10 @@ from mmsverify.concrete.belief.goal import Goal
 from mmsverify.concrete.belief.ground import Ground, negated
 from mmsverify.concrete.belief.internal import Outstanding, Unseen, decided, undecided
 from mmsverify.concrete.belief.nodes import Formula
-from mmsverify.concrete.belief.partial import OTHER, Key, Partial, World, distinct, widened, written
+from mmsverify.concrete.belief.partial import OTHER, Key, Partial, World
 from mmsverify.concrete.belief.ready import Rows
 from mmsverify.concrete.belief.resync import forced, learned_anew, sight_lost
+from mmsverify.concrete.belief.several import distinct, widened, written
 from mmsverify.concrete.belief.values import ABSENT, NO, YES, Env, exactly, plain
 from mmsverify.model.expr import Ref
 from mmsverify.model.model import ModelData

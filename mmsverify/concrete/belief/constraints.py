@@ -14,7 +14,8 @@ from typing import TypeGuard
 
 from mmsverify.concrete.belief.ground import Ground, quantifies
 from mmsverify.concrete.belief.nodes import Fixed, Formula
-from mmsverify.concrete.belief.partial import OTHER, Partial, changed
+from mmsverify.concrete.belief.partial import OTHER, Partial
+from mmsverify.concrete.belief.several import changed
 from mmsverify.concrete.belief.values import NO, YES
 from mmsverify.model import expr as ex
 from mmsverify.model.expr import Expr, Quantified, Ref

@@ -10,26 +10,21 @@ from collections.abc import Iterator, Sequence
 from functools import cache
 from typing import Any
 
+from mmsverify.concrete.belief.comparisons import Same, Smaller
 from mmsverify.concrete.belief.nodes import (
     Among,
-    CellBeside,
-    CellBits,
     Choice,
     Conditional,
     Connective,
-    Constant,
     Equivalence,
     Every,
     Fixed,
     Formula,
     Not,
     Remember,
-    Same,
-    Smaller,
-    Sum,
-    Value,
-)  # fmt: skip
+)
 from mmsverify.concrete.belief.partial import OTHER, Fact, Partial, World
+from mmsverify.concrete.belief.slots import CellBeside, CellBits, Constant, Sum, Value
 from mmsverify.concrete.belief.values import ABSENT, EITHER, NO, YES, Env, everything, exactly, single
 from mmsverify.model import expr as ex
 from mmsverify.model.expr import (

@@ -8,17 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from mmsverify.concrete.belief.nodes import (
-    Among,
-    CellBeside,
-    CellBits,
-    Conditional,
-    Constant,
-    Fixed,
-    Value,
-)  # fmt: skip
+from mmsverify.concrete.belief.nodes import Among, Conditional, Fixed
 from mmsverify.concrete.belief.partial import Key, Partial, World
 from mmsverify.concrete.belief.ready import Ready
+from mmsverify.concrete.belief.slots import CellBeside, CellBits, Constant, Value
 from mmsverify.concrete.belief.values import YES, Known, join
 
 

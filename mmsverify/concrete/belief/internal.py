@@ -18,8 +18,9 @@ from mmsverify.concrete.belief.constraints import Conflict, Constraints
 from mmsverify.concrete.belief.field import Field, History, Move, move
 from mmsverify.concrete.belief.goal import Goal
 from mmsverify.concrete.belief.horizon import Reach, reach
-from mmsverify.concrete.belief.partial import DECIDED, OTHER, Key, Partial, changed, distinct
+from mmsverify.concrete.belief.partial import DECIDED, OTHER, Key, Partial
 from mmsverify.concrete.belief.ready import Rows
+from mmsverify.concrete.belief.several import changed, distinct
 from mmsverify.concrete.belief.values import NO, YES, Env, within
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Row

@@ -1,4 +1,4 @@
-"""Formulas and values about the cells of known names: whether they hold in a partial state, what they imply.
+"""Formulas about the cells of known names: whether they hold in a partial state, what they imply.
 
 Names are resolved: a node knows the bits of the cells that it reads. Assuming a formula narrows a state: a
 conjunct narrows cells without a split. A disjunction with one possible part narrows by it; with a few, it
@@ -10,91 +10,13 @@ where none is possible.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from typing import Protocol
 
-from mmsverify.concrete.belief.partial import Key, Partial, Place
-from mmsverify.concrete.belief.values import (
-    EITHER,
-    NO,
-    YES,
-    Interval,
-    Known,
-    above,
-    below,
-    interval,
-    join,
-    meet,
-    same,
-    single,
-    smaller,
-    without,
-)  # fmt: skip
+from mmsverify.concrete.belief.partial import Partial
+from mmsverify.concrete.belief.slots import Value
+from mmsverify.concrete.belief.values import EITHER, NO, YES, Known, join, same
 
 LARGEST_SPLIT = 6
 _FLIP = (0, YES, NO, EITHER)
-
-
-class Value(Protocol):
-    """Something that has a value in a state; ``reads`` are the bits of the cells that it depends on."""
-
-    reads: int
-
-    def known(self, state: Partial) -> Known:
-        """What is known of the value."""
-
-
-class Constant:
-    """A value that does not depend on the state."""
-
-    __slots__ = ("reads", "value")
-
-    def __init__(self, value: Known) -> None:
-        self.value = value
-        self.reads = 0
-
-    def known(self, _state: Partial) -> Known:
-        """The value itself."""
-        return self.value
-
-
-class CellBits:
-    """The value of a cell that has bits."""
-
-    __slots__ = ("full", "reads", "shift")
-
-    def __init__(self, place: Place) -> None:
-        self.shift, self.full, self.reads = place.shift, place.full, place.bits
-
-    def known(self, state: Partial) -> Known:
-        """The values whose bits are set."""
-        return state.bits >> self.shift & self.full
-
-    def put(self, state: Partial, value: Known) -> Partial:
-        """The state with the cell set."""
-        assert isinstance(value, int)
-        return state.with_bits(state.bits & ~self.reads | value << self.shift)
-
-
-class CellBeside:
-    """The value of an integer cell, or what is found out about a free choice: both stand beside the bits."""
-
-    __slots__ = ("full", "key", "reads")
-
-    def __init__(self, key: Key, full: Known, reads: int) -> None:
-        self.key, self.full, self.reads = key, full, reads
-
-    def known(self, state: Partial) -> Known:
-        """What stands there, or everything."""
-        found: Known | None = state.beside.get(self.key)
-        return self.full if found is None else found
-
-    def put(self, state: Partial, value: Known) -> Partial:
-        """The state with the value set."""
-        return state.put(self.key, value)
-
-
-Slot = CellBits | CellBeside
-"""A value of which more can be known."""
 
 
 class Conditional:
@@ -114,27 +36,6 @@ class Conditional:
         if holds == NO:
             return self.otherwise.known(state)
         return join(self.then.known(state), self.otherwise.known(state))
-
-
-class Sum:
-    """The sum or difference of two integers."""
-
-    __slots__ = ("factor", "left", "reads", "right")
-
-    def __init__(self, left: Value, right: Value, factor: int) -> None:
-        self.left, self.right, self.factor = left, right, factor
-        self.reads = left.reads | right.reads
-
-    def known(self, state: Partial) -> Known:
-        """The interval of all sums."""
-        first, last = interval(self.left.known(state))
-        low, high = interval(self.right.known(state))
-        if self.factor < 0:
-            low, high = high, low
-        return (
-            None if first is None or low is None else first + self.factor * low,
-            None if last is None or high is None else last + self.factor * high,
-        )
 
 
 class Formula:
@@ -397,80 +298,6 @@ class Choice(Formula):
             for spared in self.condition.assume(state, False, split):
                 result += self.otherwise.assume(spared, want, split)
         return result
-
-
-class Same(Formula):
-    """Two values are equal."""
-
-    __slots__ = ("left", "right")
-
-    def __init__(self, left: Value, right: Value) -> None:
-        self.left, self.right = left, right
-        self.reads = left.reads | right.reads
-
-    def holds(self, state: Partial) -> int:
-        return same(self.left.known(state), self.right.known(state))
-
-    def assume(self, state: Partial, want: bool, _split: bool) -> list[Partial]:
-        if not self.holds(state) & (YES if want else NO):
-            return []
-        narrowed: Partial | None = state
-        for slot, other in ((self.left, self.right), (self.right, self.left)):
-            if narrowed is not None and isinstance(slot, Slot):
-                narrowed = _compared(narrowed, slot, other.known(narrowed), want)
-        return [] if narrowed is None else [narrowed]
-
-
-def _compared(state: Partial, slot: Slot, theirs: Known, want: bool) -> Partial | None:
-    """The slot restricted to a value, or away from the one that it is."""
-    now = slot.known(state)
-    left = meet(now, theirs) if want else without(now, theirs) if single(theirs) else now
-    if left is None:
-        return None
-    return state if left == now else slot.put(state, left)
-
-
-class Smaller(Formula):
-    """One integer is smaller than another; each bounds the other."""
-
-    __slots__ = ("left", "right")
-
-    def __init__(self, left: Value, right: Value) -> None:
-        self.left, self.right = left, right
-        self.reads = left.reads | right.reads
-
-    def holds(self, state: Partial) -> int:
-        return smaller(interval(self.left.known(state)), interval(self.right.known(state)))
-
-    def assume(self, state: Partial, want: bool, _split: bool) -> list[Partial]:
-        if not self.holds(state) & (YES if want else NO):
-            return []
-        narrowed: Partial | None = state
-        if isinstance(self.left, Slot):
-            limit = interval(self.right.known(state))[1 if want else 0]
-            narrowed = _bounded(state, self.left, limit, below if want else _from)
-        if narrowed is not None and isinstance(self.right, Slot):
-            limit = interval(self.left.known(narrowed))[0 if want else 1]
-            narrowed = _bounded(narrowed, self.right, limit, above if want else _up_to)
-        return [] if narrowed is None else [narrowed]
-
-
-def _from(known: Interval, limit: int | None) -> Interval | None:
-    return above(known, None if limit is None else limit - 1)
-
-
-def _up_to(known: Interval, limit: int | None) -> Interval | None:
-    return below(known, None if limit is None else limit + 1)
-
-
-def _bounded(
-    state: Partial, slot: Slot, limit: int | None, cut: Callable[[Interval, int | None], Interval | None]
-) -> Partial | None:
-    before = interval(slot.known(state))
-    left = cut(before, limit)
-    if left is None:
-        return None
-    return state if left == before else slot.put(state, left)
 
 
 def reading(parts: Sequence[Formula | Value]) -> int:

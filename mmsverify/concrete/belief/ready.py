@@ -10,8 +10,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from mmsverify.concrete.belief.ground import Ground, element
-from mmsverify.concrete.belief.nodes import Fixed, Formula, Value
+from mmsverify.concrete.belief.nodes import Fixed, Formula
 from mmsverify.concrete.belief.partial import OTHER, Key
+from mmsverify.concrete.belief.slots import Value
 from mmsverify.concrete.belief.values import ABSENT, NO, Env
 from mmsverify.model.declare import Assign
 from mmsverify.model.expr import Ref

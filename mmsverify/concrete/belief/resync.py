@@ -10,7 +10,8 @@ from collections.abc import Iterator, Sequence
 from mmsverify.concrete.belief.act import settle, take, update
 from mmsverify.concrete.belief.constraints import Conflict, Constraints
 from mmsverify.concrete.belief.goal import Goal
-from mmsverify.concrete.belief.partial import UNSEEN, Key, Partial, distinct
+from mmsverify.concrete.belief.partial import UNSEEN, Key, Partial
+from mmsverify.concrete.belief.several import distinct
 from mmsverify.concrete.belief.values import Env
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import MINUS
