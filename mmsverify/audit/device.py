@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from mmsverify.audit import contents
 from mmsverify.audit.acquaintance import Acquaintance
 from mmsverify.audit.exchange import Asked, Association
 from mmsverify.audit.notifications import Notifications
@@ -129,12 +130,15 @@ class Device:
             yield from self._telling.outcome(message, "initiate", PLUS, outcome)
 
     def _requested(self, association: Association, asked: Asked) -> Told:
+        if self._is_robot(association):
+            yield from contents.judge(asked.pdu)
         if self._is_robot(association) and asked.side == "client":
             yield from self._performing.requested(association.name, asked)
 
     def _answered(self, association: Association, asked: Asked, pdu: Pdu, message: TraceMessage) -> Told:
         if not self._is_robot(association) or asked.side != "client":
             return
+        yield from contents.judge(pdu, asked.pdu)
         call = self._performing.call(asked)
         if call is not None:
             yield from self._performing.answered(association.name, asked, call, pdu, message)
@@ -152,6 +156,7 @@ class Device:
     def _unconfirmed(self, association: Association, side: str, pdu: Pdu, message: TraceMessage) -> Told:
         if not self._is_robot(association) or side != "server":
             return
+        yield from contents.judge(pdu)
         match pdu.service:
             case "unsolicitedStatus":
                 yield from self._showing.status(pdu.body, pdu.detail, message)

@@ -181,7 +181,9 @@ def _reduced(proposed: Mapping[str, Any], body: Mapping[str, Any]) -> Iterator[B
         )
         if given > wanted:
             yield Breach("negotiation.outstanding", {"negotiated": given, "proposed": wanted})
-    wanted = proposed.get("initRequestDetail", {}).get("proposedVersionNumber")
-    given = body.get("initResponseDetail", {}).get("negotiatedVersionNumber")
+    asked, agreed = proposed.get("initRequestDetail", {}), body.get("initResponseDetail", {})
+    if "additionalSupportedCalled" in agreed and "additionalSupportedCalling" not in asked:
+        yield Breach("negotiation.syntax")
+    wanted, given = asked.get("proposedVersionNumber"), agreed.get("negotiatedVersionNumber")
     if wanted is not None and given is not None and not 1 <= given <= wanted:
         yield Breach("negotiation.version", {"negotiated": given, "proposed": wanted})

@@ -96,21 +96,24 @@ def shown_by_status(body: Mapping[str, Any], detail: Mapping[str, Any] | None) -
         return None
     bindings: dict[str, Any] = {"shown_logical": logical, "shown_physical": physical, "detailed": False,
                                 "shown_robot": None, "selected_is": None, "shown_local": None}  # fmt: skip
-    if detail is not None:
+    if detail is None:
+        return Call("status", bindings)
+    bindings["shown_local"] = _bit(detail, 3)
+    state = words.word(words.ROBOT_STATE, detail["robotVMDState"])
+    if state is not None:
         kind, name = detail["selectedProgramInvocation"]
-        bindings |= {
-            "detailed": True,
-            "shown_robot": words.word(words.ROBOT_STATE, detail["robotVMDState"]),
-            "selected_is": name if kind == "programInvocation" else None,
-            "shown_local": _bit(detail, 3),
-        }
+        selected = name if kind == "programInvocation" else None
+        bindings |= {"detailed": True, "shown_robot": state, "selected_is": selected}
     return Call("status", bindings)
 
 
 def _bit(detail: Mapping[str, Any], place: int) -> bool | None:
-    """One bit of the robot-specific status; ``None`` where the mask says that it means nothing."""
+    """One bit of the robot-specific status; ``None`` where the mask says that it means nothing.
+
+    A bit that is missing, there or in the mask, tells nothing, either.
+    """
     status, mask = detail["robotSpecificStatus"], detail.get("robotSpecificStatusMask", "1111")
-    if len(status) <= place or mask[place : place + 1] == "0":
+    if len(status) <= place or mask[place : place + 1] != "1":
         return None
     return bool(status[place] == "1")
 

@@ -38,6 +38,8 @@ class Showing:
                 if call is not None:
                     self._acquaintance.meet(call)
                     yield from self._shown(message, call.service, call, asked.slot)
+                else:
+                    self._belief.drop(asked.slot)
             case "read":
                 yield from self.values(asked.pdu, pdu, message, asked.slot)
             case "write":
@@ -67,6 +69,8 @@ class Showing:
         if call is not None:
             self._acquaintance.meet(call)
             yield from self._shown(message, "status", call, slot)
+        elif slot is not None:
+            self._belief.drop(slot)
 
     def values(
         self, request: Pdu, response: Pdu, message: TraceMessage, slot: str | None = None

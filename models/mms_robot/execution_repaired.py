@@ -74,7 +74,7 @@ class ExecutionRepaired(Execution, VocabularyRepaired):
             refuse("R-6.3.6-3", "RP-17", when=is_controlling & calibration_runs, rule="start.task-beside-calibration", level="warning",
                    says="the calibration program has been started"),
             refuse("R-7.3.3.3.1.4-2", "R-7.3.3.3.1.5-2", "RP-14", when=bad_count, rule="start.count", says="the count {count} is not positive"),
-            refuse("R-7.3.3.3.1.5-3", when=no_steps, rule="start.steps-unsupported", says="STEP-LIMITED is not supported"),
+            refuse("R-7.3.3.3.1.5-3", "R-7.3.3.3.4.2-2", when=no_steps, rule="start.steps-unsupported", says="STEP-LIMITED is not supported"),
             do("e1", *set_mode, cites=["R-7.3.3.3.3-e2", "R-7.3.3.3.3-e3"]),
             do("g", *run_all, cites=["R-7.3.3.3.3-f", "R-6.3.5.6-1", "RP-02"]),
             accept("g"),
