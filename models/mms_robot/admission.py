@@ -20,7 +20,7 @@ def admission(
     return [
         refuse("R-3.2.1-1", "RP-10", when=local_control & ~panel, rule=f"{service}.local-control",
                says="the robot is in local control"),
-        refuse("R-6.1.3.2.5-1", "RP-18", when=panel & ~local_control, rule=f"{service}.panel",
+        refuse("R-6.1.3.2.5-1", "R-5.3.1.4-3", "RP-18", when=panel & ~local_control, rule=f"{service}.panel",
                says="nobody at the panel holds control"),
         refuse("R-6.1.3.2.5-2", "B-STATUS", "RP-11", unless=panel | logical.isin(admitting), rule=f"{service}.logical-status",
                says="the logical status of the VMD does not admit the service"),

@@ -32,8 +32,8 @@ class Associations(Vocabulary):
         on=response("takeControl", request, user),
         steps=[
             refuse("R-9.2.2.1-3", "B-ASSOCIATION", unless=associated[user], rule="take-control.no-association", says="{user} has no association"),
-            refuse("2", "R-5.1.3-2", "B-SEMAPHORE", when=other_holds, rule="take-control.taken", says="another client holds R_CTRL"),
-            do("3", holder[user].becomes(True)),
+            refuse("2", "R-5.1.3-2", "R-8.6.1-4", "B-SEMAPHORE", when=other_holds, rule="take-control.taken", says="another client holds R_CTRL"),
+            do("3", holder[user].becomes(True), cites=["R-5.3.1.4-4"]),
             accept("3"),
         ],
     )  # fmt: skip

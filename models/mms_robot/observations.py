@@ -20,7 +20,7 @@ class Observations(Vocabulary):
 
     # What contradicts itself within one message comes first, then what contradicts the state.
     status = Observation(
-        "R-7.3.2.1-3",
+        "R-7.3.2.1-3", "R-6.3.9-1",
         on=shown("status", detailed, shown_robot, selected_is, shown_logical, shown_physical, shown_local),
         shows=[
             needs("R-T1-1", "R-6.1.3.2.5-1", rule="status.local-control",
