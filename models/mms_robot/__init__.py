@@ -16,6 +16,7 @@ from .properties_repaired import PropertiesRepaired
 from .scenario import scenario
 from .selection import Selection, SelectionRepaired
 from .services import Services
+from .transitions import Transitions, TransitionsRepaired
 from .vmd import Vmd, VmdRepaired
 from .worlds import worlds
 
@@ -24,7 +25,7 @@ VIEWS = {"robot state": "robot_state", "program invocation": "state"}
 
 
 class AsWritten(
-    Programs, Selection, Execution, Vmd, Associations, Observations, Properties, Services, Figure8,
+    Programs, Selection, Execution, Vmd, Associations, Observations, Properties, Services, Figure8, Transitions,
     name="mms-robot", variant="as-written", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
     consequences=CONSEQUENCES,
 ):  # fmt: skip
@@ -33,7 +34,7 @@ class AsWritten(
 
 class Repaired(
     ProgramsRepaired, SelectionRepaired, ExecutionRepaired, VmdRepaired, AssociationsRepaired, Observations,
-    PropertiesRepaired, Services, Figure8Repaired,
+    PropertiesRepaired, Services, Figure8Repaired, TransitionsRepaired,
     name="mms-robot", variant="repaired", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
     consequences=CONSEQUENCES,
 ):  # fmt: skip

@@ -45,6 +45,12 @@ CONSEQUENCES = {
     "intervention_left_by_operator": "A service from afar ends MANUAL-INTERVENTION-REQUIRED while the operator is still inside the fence.",
     "association_changes_nothing": "Plugging or pulling a network cable changes what the robot does.",
     "figure_8": "The robot changes its state in a way that figure 8 does not show: a client programmed from the figure loses track.",
+    "clear_needs_load": "Status falls back to ROBOT-IDLE although no task program was there to be cleared: counts of programs go wrong.",
+    "ready_left_by_deassign": "Creating another task program takes READY away from the assigned one: the next Start is answered from a state that "
+    "no client expects.",
+    "abort_deassigns": "After Clear(abort) the old task program is still selected: Start needs no new Select and runs a program that was aborted.",
+    "abort_removes_programs": "After Clear(abort) a task program is still there that the robot claims not to have.",
+    "program_diagram": "A program takes a way that no state diagram shows: a client that follows it by the diagram is wrong about what runs.",
     "lists_end": "The list of a deleted task program lives on; a new program of that name controls what it never selected.",
     "references_end": "The reference of a deleted arm program lives on; a new program of that name is controlled from the start.",
 }  # fmt: skip

@@ -192,14 +192,14 @@ class ExecutionRepaired(Execution, VocabularyRepaired):
         entered[request, p].becomes(False).over(p),
     ]  # fmt: skip
     start_fails = Transition(
-        "R-7.3.3.3.3-d4", "B-FAIL", on=response("start", request, pi, destructive), when=[destructive, entered[request, pi]], then=fail, answer=MINUS,
+        "R-7.3.3.3.3-d4", "B-FAIL", on=response("start", request, pi, destructive), when=[destructive, exists[pi], entered[request, pi]], then=fail, answer=MINUS,
         repairs=repaired("RP-04", "R-7.3.3.3.3-d4", because="a destructive failure of the selected program invocation deselects it"))  # fmt: skip
     stop_fails = Transition(
-        "R-7.3.3.4.1-a", "B-FAIL", on=response("stop", request, pi, destructive), when=[destructive, entered[request, pi]], then=fail, answer=MINUS,
+        "R-7.3.3.4.1-a", "B-FAIL", on=response("stop", request, pi, destructive), when=[destructive, exists[pi], entered[request, pi]], then=fail, answer=MINUS,
         repairs=repaired("RP-04", "R-7.3.3.4.1-a", because="a destructive failure of the selected program invocation deselects it"))  # fmt: skip
     resume_fails = Transition(
-        "R-7.3.3.5.3-d4", "B-FAIL", on=response("resume", request, pi, destructive), when=[destructive, entered[request, pi]], then=fail, answer=MINUS,
+        "R-7.3.3.5.3-d4", "B-FAIL", on=response("resume", request, pi, destructive), when=[destructive, exists[pi], entered[request, pi]], then=fail, answer=MINUS,
         repairs=repaired("RP-04", "R-7.3.3.5.3-d4", because="a destructive failure of the selected program invocation deselects it"))  # fmt: skip
     reset_fails = Transition(
-        "R-7.3.3.6.1-a", "B-FAIL", on=response("reset", request, pi, destructive), when=[destructive, entered[request, pi]], then=fail, answer=MINUS,
+        "R-7.3.3.6.1-a", "B-FAIL", on=response("reset", request, pi, destructive), when=[destructive, exists[pi], entered[request, pi]], then=fail, answer=MINUS,
         repairs=repaired("RP-04", "R-7.3.3.6.1-a", because="a destructive failure of the selected program invocation deselects it"))  # fmt: skip

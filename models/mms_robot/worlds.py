@@ -2,13 +2,14 @@
 
 Claims speak of every profile, so a run in any of these refutes them. Without a profile of the user's own: a
 robot with its arm program, one whose task program cannot be deleted, one where nothing is predefined; then a
-second client, a third program.
+second client, a second controlled program, a third program of any kind.
 """
 
 from collections.abc import Iterator, Mapping
 from typing import Any
 
 ARM = {"name": "R_ARM", "control": "CONTROLLED", "domains": ["R_ARM"], "deletable": False}
+TOOL = {"name": "R_TOOL", "control": "CONTROLLED", "domains": ["R_TOOL"], "deletable": False}
 TASK = {"name": "TASK", "control": "CONTROLLING", "domains": ["TASK"], "deletable": False}
 
 
@@ -24,4 +25,5 @@ def worlds(profile: Mapping[str, Any] | None) -> Iterator[dict[str, Any]]:
     yield {"sizes": {"PI": 2}, "profile": {"predefined": []}}
     yield {"sizes": {"PI": 1, "Client": 2}, "profile": {"predefined": [ARM]}}
     yield {"sizes": {"PI": 2, "Client": 2}, "profile": {"predefined": [ARM], "associations": "multiple"}}
+    yield {"sizes": {"PI": 3}, "profile": {"predefined": [ARM, TOOL, TASK]}}
     yield {"sizes": {"PI": 3}, "profile": {"predefined": [ARM]}}
