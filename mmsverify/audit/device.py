@@ -10,11 +10,13 @@ from collections.abc import Iterator
 
 from mmsverify.audit import contents
 from mmsverify.audit.acquaintance import Acquaintance
+from mmsverify.audit.conformance import Conformance
 from mmsverify.audit.exchange import Asked, Association
 from mmsverify.audit.notifications import Notifications
 from mmsverify.audit.performing import Performing
 from mmsverify.audit.rules import Breach
 from mmsverify.audit.showing import Showing
+from mmsverify.audit.suspicion import alarming, of_caller, undecodable
 from mmsverify.audit.telling import Place, Telling
 from mmsverify.concrete.belief import Belief
 from mmsverify.errors import DecodeError
@@ -44,10 +46,11 @@ class Device:
         self._performing = Performing(belief, self._telling, self._acquaintance, arms)
         self._showing = Showing(belief, self._telling, self._acquaintance)
         self._notifications = Notifications(belief)
+        self._conformance = Conformance()
 
     # Links.
 
-    def link(self, connection: str, event: str) -> None:
+    def link(self, connection: str, event: str, message: TraceMessage) -> Iterator[Finding]:
         """A connection opens, closes, is reset, or has a gap: messages may be missing before this point."""
         association = self._association(connection)
         if event == "gap":
@@ -56,10 +59,13 @@ class Device:
                 self.belief.lose_sight()
                 self._acquaintance.lose()
         elif event in ("close", "reset"):
+            if association.alarm:
+                lost_after = Breach("association.lost-after-stop", {"cause": association.alarm})
+                yield from self._telling.breach(message, lost_after)
             lost = association.end()
             self._release(connection)
         else:
-            association.concluded = False
+            association.reopen()
             return
         self._drop(lost)
 
@@ -86,8 +92,7 @@ class Device:
             pdu = mms.decode(message.data)
         except DecodeError as error:
             clause = Clause.of(*mms.encoded_statements(error.path))
-            breach = Breach("protocol.undecodable", {"cause": str(error)}, clause=clause)
-            yield from self._telling.breach(message, breach)
+            yield from self._telling.breach(message, undecodable(message.data, error, clause))
             return
         for found in self._judge(self._association(name), side, pdu, message):
             if isinstance(found, Breach):
@@ -97,18 +102,22 @@ class Device:
         self._notifications.note()
 
     def _judge(self, association: Association, side: str, pdu: Pdu, message: TraceMessage) -> Told:
-        if association.concluded and not pdu.kind.startswith("initiate"):
-            association.concluded = False
-            yield Breach("protocol.after-conclude")
+        robot = self._is_robot(association)
+        if not pdu.kind.startswith("initiate"):
+            yield from association.admit(side, pdu)
+        if robot:
+            yield from association.robot_syntax(pdu)
+        alarm, association.alarm = association.alarm, alarming(pdu) if robot else ""
         match pdu.kind:
             case "initiate-RequestPDU":
                 self._drop(list(association.asked.values()))
-                association.propose(pdu)
+                yield from association.propose(pdu)
             case "initiate-ResponsePDU":
-                yield from association.agree(pdu)
-                yield from self._initiated(association, message)
+                yield from self._initiated(association, pdu, message)
+            case "initiate-ErrorPDU":
+                association.refuse()
             case "confirmed-RequestPDU":
-                asked, breaches = association.request(message.index, side, pdu)
+                asked, breaches = association.request(message.index, side, pdu, message)
                 yield from breaches
                 yield from self._requested(association, asked)
             case "confirmed-ResponsePDU" | "confirmed-ErrorPDU" | "rejectPDU":
@@ -118,16 +127,28 @@ class Device:
                     yield from self._answered(association, asked_for, pdu, message)
             case "unconfirmed-PDU":
                 yield from self._unconfirmed(association, side, pdu, message)
-            case "conclude-ResponsePDU":
-                self._drop(association.end())
-                association.concluded = True
-                self._release(association.name)
+            case "cancel-RequestPDU" | "cancel-ResponsePDU" | "cancel-ErrorPDU":
+                yield from association.cancel(message.index, side, pdu)
+            case "conclude-RequestPDU" | "conclude-ResponsePDU" | "conclude-ErrorPDU":
+                yield from association.conclude(side, pdu)
+                yield from self._concluded(association, side, pdu, alarm)
 
-    def _initiated(self, association: Association, message: TraceMessage) -> Told:
+    def _initiated(self, association: Association, pdu: Pdu, message: TraceMessage) -> Told:
+        proposed = association.proposed
+        self._drop(list(association.asked.values()))
+        yield from association.agree(pdu)
         if self._is_robot(association):
+            yield from self._conformance.initiated(proposed, pdu.body)
             bindings = {"user": association.name}
             outcome = self.belief.respond(association.name, "initiate", bindings, PLUS)
             yield from self._telling.outcome(message, "initiate", PLUS, outcome)
+
+    def _concluded(self, association: Association, side: str, pdu: Pdu, alarm: str) -> Told:
+        if pdu.kind == "conclude-RequestPDU" and side == "server" and alarm:
+            yield Breach("association.concluded-after-stop", {"cause": alarm})
+        elif pdu.kind == "conclude-ResponsePDU":
+            self._drop(association.concluded())
+            self._release(association.name)
 
     def _requested(self, association: Association, asked: Asked) -> Told:
         if self._is_robot(association):
@@ -139,6 +160,7 @@ class Device:
         if not self._is_robot(association) or asked.side != "client":
             return
         yield from contents.judge(pdu, asked.pdu)
+        yield from self._conformance.rejected(association.negotiated, asked.pdu, pdu)
         call = self._performing.call(asked)
         if call is not None:
             yield from self._performing.answered(association.name, asked, call, pdu, message)
@@ -154,7 +176,10 @@ class Device:
             self._notifications.enrolled(asked.pdu)
 
     def _unconfirmed(self, association: Association, side: str, pdu: Pdu, message: TraceMessage) -> Told:
-        if not self._is_robot(association) or side != "server":
+        if not self._is_robot(association):
+            return
+        if side != "server":
+            yield from of_caller(pdu)
             return
         yield from contents.judge(pdu)
         match pdu.service:

@@ -49,21 +49,11 @@ class Replay:
             if message.message_encoding == "mms-ber":
                 self.events += 1
                 yield from self._device(message.metadata.get("vmd", "")).message(message)
-            elif message.schema_name == "link.Event" and self._link(message):
+            elif (link := _link(message)) is not None:
                 self.events += 1
+                yield from self._device(message.metadata.get("name", "")).link(*link, message)
             else:
                 self.skipped += 1
-
-    def _link(self, message: TraceMessage) -> bool:
-        try:
-            event = json.loads(message.data)
-            connection, what, role = event["connection"], event["event"], event["role"]
-        except (ValueError, KeyError, TypeError):
-            return False
-        if role != "mms":
-            return False
-        self._device(message.metadata.get("name", "")).link(str(connection), str(what))
-        return True
 
     def _device(self, vmd: str) -> Device:
         if vmd not in self._devices:
@@ -89,6 +79,18 @@ class Replay:
             if entry["name"] in arms
             for d in entry.get("domains", ())
         )
+
+
+def _link(message: TraceMessage) -> tuple[str, str] | None:
+    """The connection of an MMS link and what happens to it; ``None`` where the message tells of none."""
+    if message.schema_name != "link.Event":
+        return None
+    try:
+        event = json.loads(message.data)
+        connection, what, role = event["connection"], event["event"], event["role"]
+    except (ValueError, KeyError, TypeError):
+        return None
+    return (str(connection), str(what)) if role == "mms" else None
 
 
 def _robot_model(model: str | None) -> str:

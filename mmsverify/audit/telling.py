@@ -85,6 +85,7 @@ class Telling:
         said = rule.says.format(**breach.words)
         if self._repeated(message, (rule.id, said), told_again=not rule.shown):
             return
+        message = breach.at or message
         cited = breach.clause + rule.clause if breach.clause is not None else rule.clause
         yield Finding(
             path=self.place.path, vmd=self.place.vmd,

@@ -205,7 +205,8 @@ def initiation(sort: str) -> Pdu:
     offered: Sequence[str] = (
         "status", "getNameList", "identify", "read", "takeControl", "relinquishControl", "start", "stop",
         "resume", "reset", "kill", "createProgramInvocation", "deleteProgramInvocation",
-        "getProgramInvocationAttributes", "unsolicitedStatus", "conclude",
+        "getProgramInvocationAttributes", "write", "getDomainAttributes", "deleteDomain", "loadDomainContent",
+        "storeDomainContent", "unsolicitedStatus", "conclude", "cancel",
     )  # fmt: skip
     body = {
         f"{past}MaxServOutstandingCalling": OUTSTANDING,

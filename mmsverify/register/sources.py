@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from mmsverify.audit.conformance import BASE_CLASS
 from mmsverify.audit.objects import OBJECTS
 from mmsverify.audit.rules import RULES
 from mmsverify.audit.variables import TYPES, VARIABLES
@@ -16,6 +17,7 @@ from mmsverify.resources import asn1_dir
 TABLES: Mapping[str, tuple[tuple[str, Any], ...]] = {
     "mms-robot": (
         ("rule", RULES),
+        ("requirement of the base class", BASE_CLASS),
         ("standard object", OBJECTS),
         ("standard type", TYPES),
         ("standard variable", VARIABLES),

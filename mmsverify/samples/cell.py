@@ -26,7 +26,7 @@ ROBOT_SERVICES = (
     "terminateUploadSequence", "deleteDomain", "getDomainAttributes", "createProgramInvocation",
     "deleteProgramInvocation", "start", "stop", "resume", "reset", "kill", "getProgramInvocationAttributes",
     "defineEventEnrollment", "deleteEventEnrollment", "getCapabilityList", "unsolicitedStatus",
-    "informationReport", "eventNotification", "conclude",
+    "informationReport", "eventNotification", "conclude", "cancel",
 )  # fmt: skip
 ROBOT_ADDITIONAL = ("vMDStop", "vMDReset", "select", "alterProgramInvocationAttributes")
 OFFERED: dict[Sender, tuple[str, ...]] = {"client": CLIENT_SERVICES, "server": ROBOT_SERVICES}

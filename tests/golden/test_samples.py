@@ -18,8 +18,14 @@ Told = tuple[int | None, str, str, tuple[str, ...]]
 
 UNLISTED = ("R-7.5.2.4-2", "R-7.5.1.4-5")
 
+LACKING = (
+    "R-9.2.2.2.1-1", "R-9.2.2.2.1-3", "R-9.2.2.2.1-4", "R-9.2.2.2.1-6", "R-9.2.2.2.1-9", "R-9.1-1",
+    "R-9.2.2.2.2.1-1", "R-9.2.2.2.2.2-1", "R-9.2.2.2.2.1-2", "R-9.2.2.1-1", "R-9.2.3.1-1",
+)  # fmt: skip
+
 FINDINGS: dict[str, list[Told]] = {
     "annex-a.mcap": [
+        (1, "error", "conformance.services", LACKING),
         (7, "error", "negotiation.service", UNLISTED),
         (9, "error", "negotiation.service", UNLISTED),
         (11, "error", "negotiation.service", UNLISTED),

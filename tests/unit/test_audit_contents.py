@@ -12,7 +12,7 @@ from mmsverify.auditing import audit_traces
 from mmsverify.formats.mms import Pdu
 from mmsverify.results import Audit, Finding
 from mmsverify.samples import pdus
-from mmsverify.samples.cell import ARM, Cell
+from mmsverify.samples.cell import ARM, OFFERED, Cell
 from mmsverify.samples.recording import Recording
 
 Listen = Callable[..., list[Finding]]
@@ -143,7 +143,7 @@ def test_an_answer_in_the_robots_form_needs_a_proposal_in_it(listen: Listen) -> 
     proposal = pdus.initiation("Request", ("status",), ())
     del proposal.body["initRequestDetail"]["additionalSupportedCalling"]
     made.recording.say(made.name, "client", proposal)
-    made.recording.say(made.name, "server", pdus.initiation("Response", ("status",), ("select",)))
+    made.recording.say(made.name, "server", pdus.initiation("Response", OFFERED["server"], ("select",)))
     assert told(listen(made)) == [("negotiation.syntax", "error", "R-7.5.2-1")]
 
 

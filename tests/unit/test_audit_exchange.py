@@ -2,30 +2,13 @@
 
 from __future__ import annotations
 
+import pytest
+from associations import OFFERED, association, reject, rules
+
 from mmsverify.audit.exchange import Association
-from mmsverify.audit.rules import Breach
+from mmsverify.audit.rules import RULES, Breach
 from mmsverify.formats.mms import Pdu
 from mmsverify.samples.pdus import failure, initiation, request, response
-
-OFFERED = ("status", "start", "read", "downloadSegment")
-
-
-def association(
-    *services: str, outstanding: int = 2, additional: tuple[str, ...] = ("select",)
-) -> Association:
-    """An association that has been set up, both sides offering these services."""
-    made = Association("a1")
-    made.propose(initiation("Request", services or OFFERED, additional, outstanding))
-    assert made.agree(initiation("Response", services or OFFERED, additional, outstanding)) == []
-    return made
-
-
-def rules(breaches: list[Breach]) -> list[str]:
-    return [breach.rule for breach in breaches]
-
-
-def reject(invoke_id: int) -> Pdu:
-    return Pdu("rejectPDU", invoke_id, body={"rejectReason": ("confirmed-request", 1)})
 
 
 def test_an_answer_finds_its_request() -> None:
@@ -108,12 +91,22 @@ def test_a_positive_answer_to_a_service_that_was_not_listed_is_a_breach() -> Non
     assert rules(made.answer("server", response(1, "kill"))[1]) == ["negotiation.service"]
 
 
-def test_a_refusal_of_a_service_that_was_not_listed_is_none() -> None:
+@pytest.mark.exercises("R-7.5.1.4-5", "R-7.5.2.4-2")
+def test_a_service_that_was_not_listed_is_rejected_as_unrecognized() -> None:
     made = association("status")
-    made.request(0, "client", request(1, "kill", {}))
-    assert made.answer("server", failure(1, ("access", "object-non-existent")))[1] == []
     made.request(2, "client", request(2, "kill", {}))
     assert made.answer("server", reject(2))[1] == []
+
+
+@pytest.mark.exercises("R-7.5.1.4-5", "R-7.5.2.4-2")
+def test_another_refusal_of_a_service_that_was_not_listed_is_worth_a_note() -> None:
+    made = association("status")
+    made.request(0, "client", request(1, "kill", {}))
+    made.request(1, "client", request(2, "kill", {}))
+    told = made.answer("server", failure(1, ("access", "object-non-existent")))[1]
+    told += made.answer("server", reject(2, 4))[1]
+    assert rules(told) == ["negotiation.refused", "negotiation.reject-reason"]
+    assert {RULES[breach.rule].severity for breach in told} == {"note"}
 
 
 def test_additional_services_have_a_list_of_their_own() -> None:
@@ -142,3 +135,133 @@ def test_the_version_lies_between_one_and_the_proposed_one() -> None:
     answer = initiation("Response", OFFERED, ())
     answer.body["initResponseDetail"]["negotiatedVersionNumber"] = 2
     assert rules(made.agree(answer)) == ["negotiation.version"]
+
+
+# Cancel.
+
+CANCEL_UNKNOWN, CANCEL_IMPOSSIBLE = 1, 2
+
+
+def cancelled(made: Association, *steps: str | tuple[str, int]) -> list[str]:
+    """What is said of a conversation about invokeID 1: the client asks and cancels, the robot answers."""
+    told: list[Breach] = []
+    for index, step in enumerate(steps):
+        match step:
+            case "ask":
+                told += made.request(index, "client", request(1, "status", False))[1]
+            case "answer":
+                told += made.answer("server", response(1, "status"))[1]
+            case "error":
+                told += made.answer("server", failure(1, ("service", "object-state-conflict")))[1]
+            case "cancel":
+                told += made.cancel(index, "client", Pdu("cancel-RequestPDU", 1))
+            case "granted":
+                told += made.cancel(index, "server", Pdu("cancel-ResponsePDU", 1))
+            case (_, code):
+                body = {"serviceError": {"errorClass": ("cancel", code)}}
+                told += made.cancel(index, "server", Pdu("cancel-ErrorPDU", 1, body=body))
+    return rules(told)
+
+
+REFUSED, UNKNOWN = ("refused", CANCEL_IMPOSSIBLE), ("refused", CANCEL_UNKNOWN)
+
+
+@pytest.mark.exercises("R-9.2.2.2.1-1")
+@pytest.mark.parametrize(
+    "steps",
+    [
+        ("ask", "cancel", "granted", "error"),
+        ("ask", "cancel", "error", "granted"),
+        ("ask", "cancel", REFUSED, "answer"),
+        ("ask", "cancel", "answer", UNKNOWN),
+        ("ask", "answer", "cancel", UNKNOWN),
+        ("ask", "cancel", "granted", "error", "ask", "answer"),
+    ],
+)
+def test_a_cancel_that_is_answered_truly_is_no_breach(steps: tuple[str, ...]) -> None:
+    assert cancelled(association(), *steps) == []
+
+
+@pytest.mark.exercises("R-9.2.2.2.1-1")
+@pytest.mark.parametrize(
+    ("steps", "rule"),
+    [
+        (("ask", "cancel", "granted", "answer"), "cancel.performed"),
+        (("ask", "cancel", "answer", "granted"), "cancel.performed"),
+        (("cancel", "granted"), "cancel.unknown"),
+        (("ask", "answer", "cancel", "granted"), "cancel.unknown"),
+        (("ask", "cancel", UNKNOWN, "answer"), "cancel.known"),
+        (("ask", "granted", "answer"), "cancel.unasked"),
+        (("ask", REFUSED, "answer"), "cancel.unasked"),
+    ],
+)
+def test_a_cancel_that_is_answered_falsely_is_a_breach(steps: tuple[str, ...], rule: str) -> None:
+    assert cancelled(association(), *steps) == [rule]
+
+
+def test_what_a_recording_may_lack_is_not_missed() -> None:
+    assert cancelled(Association("a1"), "cancel", "granted") == []
+    assert cancelled(Association("a1"), "granted", REFUSED) == []
+
+
+@pytest.mark.exercises("R-7.5.2.4-2")
+@pytest.mark.parametrize(("services", "said"), [(("status", "cancel"), 1), (("status",), 0)])
+def test_a_cancel_that_is_listed_is_not_an_unknown_pdu(services: tuple[str, ...], said: int) -> None:
+    made = association(*services)
+    assert cancelled(made, "ask", "cancel") == []
+    unknown = Pdu("rejectPDU", None, body={"rejectReason": ("pdu-error", 0)})
+    assert rules(made.answer("server", unknown)[1]) == ["negotiation.rejected"] * said
+
+
+# Beginning and end.
+
+
+def admitted(made: Association, side: str, kind: str = "confirmed-RequestPDU") -> list[str]:
+    return rules(list(made.admit(side, Pdu(kind, 9, "status"))))
+
+
+@pytest.mark.exercises("R-9.2.1-1")
+def test_nothing_is_asked_before_initiate_is_answered() -> None:
+    made = Association("a1")
+    assert admitted(made, "client") == []
+    made.propose(initiation("Request", OFFERED, ()))
+    assert [admitted(made, "client"), admitted(made, "client")] == [["protocol.no-association"], []]
+    made.propose(initiation("Request", OFFERED, ()))
+    made.refuse()
+    assert admitted(made, "client") == ["protocol.no-association"]
+    assert admitted(association(), "client") == []
+
+
+@pytest.mark.exercises("R-9.2.1-1")
+def test_who_concludes_asks_for_nothing_more() -> None:
+    made = association()
+    assert list(made.conclude("client", Pdu("conclude-RequestPDU"))) == []
+    assert admitted(made, "server") == []
+    assert admitted(made, "client", "confirmed-ResponsePDU") == []
+    assert admitted(made, "client") == ["protocol.after-conclude-request"]
+
+
+def test_a_refused_conclude_changes_nothing() -> None:
+    made = association()
+    steps = [("client", "conclude-RequestPDU"), ("server", "conclude-ErrorPDU")]
+    assert [list(made.conclude(side, Pdu(kind, body={}))) for side, kind in steps] == [[], []]
+    assert admitted(made, "client") == []
+
+
+@pytest.mark.exercises("R-9.2.1-1")
+@pytest.mark.parametrize("kind", ["conclude-ResponsePDU", "conclude-ErrorPDU"])
+def test_a_conclude_that_nobody_asked_is_not_answered(kind: str) -> None:
+    assert rules(list(association().conclude("server", Pdu(kind)))) == ["protocol.conclude-unasked"]
+    made = association()
+    list(made.conclude("server", Pdu("conclude-RequestPDU")))
+    assert rules(list(made.conclude("server", Pdu(kind)))) == ["protocol.conclude-unasked"]
+    assert list(Association("a1").conclude("server", Pdu(kind))) == []
+
+
+def test_a_conclude_leaves_no_request_unanswered() -> None:
+    made = association()
+    made.request(0, "client", request(1, "status", False))
+    list(made.conclude("client", Pdu("conclude-RequestPDU")))
+    assert rules(list(made.conclude("server", Pdu("conclude-ResponsePDU")))) == ["protocol.unanswered"]
+    assert [asked.index for asked in made.concluded()] == [0]
+    assert admitted(made, "client") == ["protocol.after-conclude"]
