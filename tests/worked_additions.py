@@ -227,9 +227,9 @@ INITIATIONS: list[Worked | Refused] = [
 NOTIFIED = e("A0", e("80", "45")) + e("A1", e("80", "43")) + "820140" + e("A4", "8200")
 
 
-def notified(ids: tuple[str, ...], result: str, success: dict[str, Any]) -> Worked:
+def notified(ids: tuple[str, ...], result: str, outcome: tuple[str, dict[str, Any]]) -> Worked:
     """A notification whose action came to ``result``."""
-    action = e("A8", e("80", "41"), e("A0", result))
+    action = e("A8", e("80", "41"), e("A0" if outcome[0] == "success" else "A1", result))
     body = {
         "eventEnrollmentName": ("vmd-specific", "E"),
         "eventConditionName": ("vmd-specific", "C"),
@@ -238,7 +238,7 @@ def notified(ids: tuple[str, ...], result: str, success: dict[str, Any]) -> Work
         "notificationLost": False,
         "actionResult": {
             "eventActionName": ("vmd-specific", "A"),
-            "eventActionResult": ("success", success),
+            "eventActionResult": outcome,
         },
     }
     return Worked(ids, e("A3", e("A2", NOTIFIED, action)), unconfirmed("eventNotification", body))
@@ -256,14 +256,21 @@ EVENTS: list[Worked | Refused] = [
     notified(
         ("R-8.8.1-1",),
         WELL + under79(e("A0", e("30", EXECUTING))),
-        {"response": ("status", STATUS), "detail": robot(3, "0110", SELECTED)},
+        ("success", {"response": ("status", STATUS), "detail": robot(3, "0110", SELECTED)}),
     ),
     notified(
         ("R-8.8.2-1",),
         PLAIN + under79(e("BF2D", "800100", e("A1", "8200"))),
-        {"response": ("getProgramInvocationAttributes", ATTRIBUTES), "detail": NORMAL},
+        ("success", {"response": ("getProgramInvocationAttributes", ATTRIBUTES), "detail": NORMAL}),
     ),
-    notified(("R-8.8.1-1",), WELL, {"response": ("status", STATUS)}),
+    notified(("R-8.8.1-1",), WELL, ("success", {"response": ("status", STATUS)})),
+    notified(("R-8.8.1-1",), e("A1", ERROR), ("failure", {"serviceError": FAILED})),
+    Refused(
+        ("R-8.8.1-1", "R-8.8.2-1"),
+        e("A3", e("A2", NOTIFIED, e("A8", e("80", "41"), "A000"))),
+        "unconfirmed-PDU.service.eventNotification.actionResult.eventActionResult.success",
+        "response",
+    ),
     Worked(
         ("R-7.3.4-2",),
         tell(e("BF3F", e("A0", e("30", SUMMARY, "A4020500")))),

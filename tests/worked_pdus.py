@@ -133,7 +133,12 @@ NAMES = {
     "CS-CreateProgramInvocation-Request": ("R-7.3.3.2.4-1", "normal controlling controlled"),
     "AdditionalSupportOptions": (
         "R-7.5.3-3",
-        "vMDStop vMDReset select alterProgramInvocationAttributes",
+        "vMDStop vMDReset select alterProgramInvocationAttributes "
+        "initiateUnitControlLoad unitControlLoadSegment unitControlUpload startUnitControl stopUnitControl "
+        "createUnitControl addToUnitControl removeFromUnitControl getUnitControlAttributes "
+        "loadUnitControlFromFile storeUnitControlToFile deleteUnitControl defineEventConditionList "
+        "deleteEventConditionList addEventConditionListReference removeEventConditionListReference "
+        "getEventConditionListAttributes reportEventConditionListStatus alterEventConditionListMonitoring",
     ),
 }
 """The names of numbers and bits, from 0 on, with the statement that gives them."""
