@@ -58,7 +58,9 @@ class Replay:
     def _device(self, vmd: str) -> Device:
         if vmd not in self._devices:
             scenario = self.model.options["scenario"]
-            sizes = {"PI": len(self.profile.get("predefined", ())), "Client": 0, "Request": 0}
+            predefined = self.profile.get("predefined", ())
+            domains = {domain for entry in predefined for domain in entry.get("domains", ())}
+            sizes = {"PI": len(predefined), "Client": 0, "Request": 0, "Domain": len(domains)}
             _, facts = scenario(sizes, self.profile)
             base = frozenset(name for owner, name in self._base_only if owner == vmd)
             belief = Belief(self.model, facts, self._proved())

@@ -45,9 +45,9 @@ class Scope:
     tried: Mapping[str, tuple[Enumeration, ...]] = field(default_factory=dict)
 
     def names(self, sort: ElementSort) -> tuple[str, ...]:
-        """The names of the elements of a sort; :class:`UsageError` if there are none."""
-        names = self.elements.get(sort.short, ())
-        if not names:
+        """The names of the elements of a sort; :class:`UsageError` if the scope says nothing of the sort."""
+        names = self.elements.get(sort.short)
+        if names is None:
             raise UsageError(f"the scope has no {sort.short}", cure=f"give at least one: {sort.short}=1")
         return names
 

@@ -6,6 +6,7 @@ that it mends and the reason. One file per clause group; the text and its repair
 
 from .associations import Associations, AssociationsRepaired
 from .consequences import CONSEQUENCES
+from .domains import Domains, DomainsRepaired
 from .execution import Execution
 from .execution_repaired import ExecutionRepaired
 from .figure8 import Figure8, Figure8Repaired
@@ -25,7 +26,7 @@ VIEWS = {"robot state": "robot_state", "program invocation": "state"}
 
 
 class AsWritten(
-    Programs, Selection, Execution, Vmd, Associations, Observations, Properties, Services, Figure8, Transitions,
+    Programs, Selection, Execution, Vmd, Associations, Domains, Observations, Properties, Services, Figure8, Transitions,
     name="mms-robot", variant="as-written", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
     consequences=CONSEQUENCES,
 ):  # fmt: skip
@@ -33,7 +34,7 @@ class AsWritten(
 
 
 class Repaired(
-    ProgramsRepaired, SelectionRepaired, ExecutionRepaired, VmdRepaired, AssociationsRepaired, Observations,
+    ProgramsRepaired, SelectionRepaired, ExecutionRepaired, VmdRepaired, AssociationsRepaired, DomainsRepaired, Observations,
     PropertiesRepaired, Services, Figure8Repaired, TransitionsRepaired,
     name="mms-robot", variant="repaired", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
     consequences=CONSEQUENCES,

@@ -24,7 +24,7 @@ class Associations(Vocabulary):
     release = Transition(
         "R-9.2.2.4-2", "R-9.2.2.4-3",
         on=response("release", user),
-        then=[associated[user].becomes(False)],
+        then=[associated[user].becomes(False), *end_transfers],
     )  # fmt: skip
 
     take_control = Procedure(
@@ -55,6 +55,6 @@ class AssociationsRepaired(Associations):
     release = Transition(
         "R-9.2.2.4-2", "R-9.2.2.4-3", "RP-16",
         on=response("release", user),
-        then=[associated[user].becomes(False), holder[user].becomes(False)],
+        then=[associated[user].becomes(False), holder[user].becomes(False), *end_transfers],
         repairs=repaired("RP-16", "R-8.6.1-3", because="a token that nobody can give back would lock every client out"),
     )  # fmt: skip

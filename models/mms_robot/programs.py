@@ -19,21 +19,32 @@ from mmsverify.model import (
 )  # fmt: skip
 
 from .admission import ALL_BUT_RUNNING, EVERYTHING, admission
-from .vocabulary import Control, Mode, RobotState, State, Vocabulary, VocabularyRepaired
+from .vocabulary import Control, DomainState, Mode, RobotState, State, Vocabulary, VocabularyRepaired
 
 
 class Programs(Vocabulary):
     """As written."""
 
+    # What Create needs of the domains that it names, and what it and Delete do with them (base standard).
+    domains_fit = [
+        refuse("R-7.3.3.2.3-0", "B-CREATE", when=for_some(d)(domains.has(d) & (domain_state[d] != DomainState.READY)),
+               rule="create.domain", says="a domain named is neither READY nor IN-USE"),
+        refuse("R-7.3.3.2.3-0", "R-8.2.2-2", "R-8.2.3-2", "B-CREATE", when=for_some(d)(domains.has(d) & in_use[d] & ~sharable[d]),
+               rule="create.unsharable", says="a domain named is in use and not sharable"),
+    ]  # fmt: skip
+    bind_domains = [uses[pi, d].becomes(domains.has(d)).over(d)]
+    unbind_domains = [uses[pi, d].becomes(False).over(d)]
+
     others_controlling = for_some(p)((p != pi) & exists[p] & (control[p] == Control.CONTROLLING))
 
     create = Procedure(
         "R-7.3.3.2.3",
-        on=response("createProgramInvocation", request, user, pi, kind, reuse, binds_arm),
+        on=response("createProgramInvocation", request, user, pi, kind, reuse, binds_arm, domains),
         steps=[
             refuse("0", "B-CREATE", when=exists[pi], rule="create.exists", says="{pi} exists already"),
+            *domains_fit,
             do("0", state[pi].becomes(State.IDLE), control[pi].becomes(kind), deletable[pi].becomes(True),
-               reusable[pi].becomes(reuse), arm[pi].becomes(binds_arm)),
+               reusable[pi].becomes(reuse), arm[pi].becomes(binds_arm), *bind_domains),
             do("a", controls[pi, c].becomes(False).over(c).when(kind == Control.CONTROLLING),
                mode[pi].becomes(Mode.FREE_RUN).when(kind == Control.CONTROLLING)),
             do("b", controller[pi, a].becomes(False).over(a).when(kind == Control.CONTROLLED)),
@@ -55,7 +66,7 @@ class Programs(Vocabulary):
                    rule="delete.controller-active", says="the program invocation that controls {pi} is not IDLE"),
             do("c2", controls[a, pi].becomes(False).over(a).when((control[pi] == Control.CONTROLLED) & controller[pi, a])),
             do("d", controller[c, pi].becomes(False).over(c).when((control[pi] == Control.CONTROLLING) & controls[pi, c])),
-            do("e", state[pi].becomes(State.NON_EXISTENT)),
+            do("e", state[pi].becomes(State.NON_EXISTENT), *unbind_domains),
             do("R-5.3.1.3.3.3-1", robot_state().becomes(RobotState.IDLE).when((control[pi] == Control.CONTROLLING) & ~others_controlling),
                cites=["R-6.3.5.3-1"]),
             accept("e"),
@@ -122,12 +133,13 @@ class ProgramsRepaired(Programs, VocabularyRepaired):
 
     create = Procedure(
         "R-7.3.3.2.3",
-        on=response("createProgramInvocation", request, user, panel, pi, kind, reuse, binds_arm),
+        on=response("createProgramInvocation", request, user, panel, pi, kind, reuse, binds_arm, domains),
         steps=[
             *admission("create", panel, local_control(), logical(), ALL_BUT_RUNNING),
             refuse("0", "B-CREATE", when=exists[pi], rule="create.exists", says="{pi} exists already"),
+            *domains_fit,
             do("0", state[pi].becomes(State.IDLE), control[pi].becomes(kind), deletable[pi].becomes(True),
-               reusable[pi].becomes(reuse), arm[pi].becomes(binds_arm)),
+               reusable[pi].becomes(reuse), arm[pi].becomes(binds_arm), *bind_domains),
             do("a", controls[pi, c].becomes(False).over(c), mode[pi].becomes(Mode.FREE_RUN)),
             do("b", controller[pi, a].becomes(False).over(a)),
             accept("0"),
@@ -153,7 +165,7 @@ class ProgramsRepaired(Programs, VocabularyRepaired):
             do("c2", controls[a, pi].becomes(False).over(a)),
             do("d", controller[c, pi].becomes(False).over(c)),
             do("e", state[pi].becomes(State.NON_EXISTENT), controller[pi, a].becomes(False).over(a),
-               controls[pi, c].becomes(False).over(c)),
+               controls[pi, c].becomes(False).over(c), *unbind_domains),
             accept("e"),
         ],
         repairs=repaired("RP-04", "R-7.3.3.8.1-e", "R-6.1.3.2.6-2", "R-6.3.2.3-2",

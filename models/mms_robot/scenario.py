@@ -1,10 +1,12 @@
 """The start of a device: which program invocations a profile predefines, and with what attributes."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from .vocabulary import Control
 
+ARM, CALIBRATION = "R_ARM", "R_CAL"
+STANDARD = (ARM, CALIBRATION, "R_SAFE")
 DEFAULT = (
     {"name": "R_ARM", "control": "CONTROLLED", "domains": ["R_ARM"], "deletable": False},
     {"name": "R_CAL", "control": "NORMAL", "domains": ["R_CAL"], "deletable": False},
@@ -28,6 +30,8 @@ def scenario(
         "PI": (*names, *others),
         "Client": tuple(f"client{i + 1}" for i in range(sizes.get("Client", 1))),
         "Request": tuple(f"request{i + 1}" for i in range(sizes.get("Request", 1))),
+        "Domain": domain_names(predefined, sizes.get("Domain", 0)),
+        "Upload": tuple(f"upload{i + 1}" for i in range(sizes.get("Upload", 0))),
     }
     facts: dict[tuple[str, tuple[str, ...]], Any] = {
         ("step_limited", ()): bool(profile.get("step_limited", True)),
@@ -36,7 +40,32 @@ def scenario(
     for name in elements["PI"]:
         entry = next((e for e in predefined if e["name"] == name), None)
         facts |= attributes(name, entry, profile)
-    return elements, facts
+    return elements, facts | domain_facts(elements["Domain"], elements["PI"], predefined)
+
+
+def domain_names(predefined: Sequence[Mapping[str, Any]], size: int) -> tuple[str, ...]:
+    """The first domains are those of the predefined program invocations, as many as fit."""
+    named = dict.fromkeys(str(d) for entry in predefined for d in entry.get("domains", ()))
+    first = [*named][:size]
+    return (*first, *(f"D{i + 1}" for i in range(size - len(first))))
+
+
+def domain_facts(
+    domains: Sequence[str], programs: Sequence[str], predefined: Sequence[Mapping[str, Any]]
+) -> dict[tuple[str, tuple[str, ...]], Any]:
+    """What is fixed about the domains: which are predefined, which are standardized ones, who is bound to them."""
+    bound = {str(e["name"]): frozenset(map(str, e.get("domains", ()))) for e in predefined}
+    facts: dict[tuple[str, tuple[str, ...]], Any] = {}
+    for name in domains:
+        given = any(name in named for named in bound.values())
+        facts |= {
+            ("predefined_domain", (name,)): given,
+            ("standard_domain", (name,)): given and name in STANDARD,
+            ("arm_domain", (name,)): given and name == ARM,
+            ("calibration_domain", (name,)): given and name == CALIBRATION,
+        }
+        facts |= {("predefined_uses", (p, name)): name in bound.get(p, ()) for p in programs}
+    return facts
 
 
 def attributes(

@@ -12,6 +12,7 @@ from mmsverify.model import (
     Model,
     Relation,
     Variable,
+    for_all,
     for_some,
     if_,
     integer,
@@ -80,12 +81,32 @@ class Physical(Enumeration):
     NEEDS_COMMISSIONING = "NEEDS-COMMISSIONING"
 
 
+class DomainState(Enumeration):
+    """The state of a domain (base standard); READY is IN-USE while a program invocation is bound to it."""
+
+    NON_EXISTENT = "NON-EXISTENT"
+    LOADING = "LOADING"
+    COMPLETE = "COMPLETE"
+    INCOMPLETE = "INCOMPLETE"
+    READY = "READY"
+
+
+class UploadState(Enumeration):
+    """The state of an upload state machine (base standard), which an ulsmID names on its association."""
+
+    NON_EXISTENT = "NON-EXISTENT"
+    UPLOADING = "UPLOADING"
+    UPLOADED = "UPLOADED"
+
+
 class Vocabulary(Model):
     """Sorts, variables and parameters; no rows."""
 
     PI = Each("ProgramInvocation")
     Client = Each("Association")
     Request = Each("Request")
+    Domain = Each("Domain")
+    Upload = Each("Upload")
 
     # What a profile fixes.
     predefined = Relation(PI, rigid=True, doc="exists at power-on")
@@ -114,6 +135,22 @@ class Vocabulary(Model):
     cycles = Variable(integer(0), PI, doc="remaining cycle count (6.3.2.6)", cites=["R-6.3.2-3", "R-5.3.2-1"])
     steps = Variable(integer(0), PI, doc="remaining step count (6.3.2.7)", cites=["R-6.3.2-3", "R-5.3.2-1"])
 
+    # Domains (6.2.1, 8.2): what a profile predefines, their life, who is bound to them, who loads or reads them.
+    predefined_domain = Relation(Domain, rigid=True, doc="exists at power-on")
+    predefined_uses = Relation(PI, Domain, rigid=True)
+    predefined_sharable = Relation(Domain, rigid=True)
+    standard_domain = Relation(Domain, rigid=True, doc="R_ARM, R_CAL or R_SAFE by its standardized name (8.2)")
+    arm_domain = Relation(Domain, rigid=True, doc="R_ARM (8.2.1)")
+    calibration_domain = Relation(Domain, rigid=True, doc="R_CAL (8.2.2)")
+    domain_state = Variable(DomainState, Domain)
+    domain_deletable = Relation(Domain)
+    sharable = Relation(Domain, doc="several program invocations may be bound to it")
+    uses = Relation(PI, Domain, doc="uses[p, d]: the domain list of p names d")
+    loads = Relation(Client, Domain, doc="the association on which the domain is being downloaded")
+    upload_state = Variable(UploadState, Upload)
+    uploads = Relation(Client, Upload, doc="the association of an upload state machine")
+    source = Relation(Upload, Domain, doc="the domain that is uploaded")
+
     # The VMD (6.1.3) and the arm (6.2.2.5).
     selected = Relation(
         PI, doc="at most one: the selected program invocation (6.1.3.2.6)", cites=["R-6.1.3.1-6"]
@@ -137,6 +174,8 @@ class Vocabulary(Model):
     p, a, b, c = PI.elements("p a b c")
     u, v = Client.elements("u v")
     q = Request.element("q")
+    d = Domain.element("d")
+    x = Upload.element("x")
 
     # Parameters of the services.
     request = Request.element("request")
@@ -162,6 +201,12 @@ class Vocabulary(Model):
     to_idle = PI.some("to_idle")
     to_stopped = PI.some("to_stopped")
     to_unrunnable = PI.some("to_unrunnable")
+    domain = Domain.element("domain")
+    domains = Domain.some("domains")
+    shares = parameter("shares", BOOL)
+    more = parameter("more", BOOL)
+    discard = parameter("discard", BOOL)
+    upload = Upload.element("upload")
 
     exists = Derived(state[p] != State.NON_EXISTENT, over=[p])
     some_controlling = Derived(
@@ -174,6 +219,19 @@ class Vocabulary(Model):
     active = Derived(started[p] & (state[p] != State.STOPPED) | (state[p] == State.STARTING), over=[p])
     runs = Derived(state[p].isin([State.RUNNING, State.STOPPING]), over=[p])
     selected_started = Derived(for_some(p)(selected[p] & started[p]))
+    in_use = Derived(for_some(p)(exists[p] & uses[p, d]), over=[d])
+    in_transfer = Derived(domain_state[d].isin([DomainState.LOADING, DomainState.COMPLETE, DomainState.INCOMPLETE]), over=[d])
+
+    # An association ends: what was being downloaded on it is gone, and so are its upload state machines.
+    end_transfers = [
+        domain_state[d].becomes(DomainState.NON_EXISTENT).over(d).when(loads[user, d]),
+        loads[user, d].becomes(False).over(d),
+        upload_state[x].becomes(UploadState.NON_EXISTENT).over(x).when(uploads[user, x]),
+        source[x, d].becomes(False).over(x, d).when(uploads[user, x]),
+        uploads[user, x].becomes(False).over(x),
+    ]  # fmt: skip
+    # VMD Reset d) as the text has it: every domain that can be deleted goes, whoever uses or transfers it.
+    reset_domains = [domain_state[d].becomes(DomainState.NON_EXISTENT).over(d).when(domain_deletable[d])]
 
 
 class VocabularyRepaired(Vocabulary):
@@ -190,3 +248,12 @@ class VocabularyRepaired(Vocabulary):
         repairs=repaired("RP-12", "R-6.3.4.2-1", "R-6.3.4.3-1", "R-6.3.4.4-1",
                          because="the predicates of 6.3.4 are neither exhaustive nor exclusive; under this mapping they are"),
     )  # fmt: skip
+
+    # VMD Reset d): the domains of program invocations that remain are in use, and remain; downloads end.
+    goes = domain_deletable[d] & for_all(p)((exists[p] & uses[p, d]) >> deletable[p])
+    clear_domains = [
+        domain_state[d].becomes(DomainState.NON_EXISTENT).over(d).when(goes),
+        loads[u, d].becomes(False).over(u, d).when(goes),
+        source[x, d].becomes(False).over(x, d).when(goes),
+        uses[p, d].becomes(False).over(p, d).when(deletable[p]),
+    ]  # fmt: skip

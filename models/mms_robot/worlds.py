@@ -2,7 +2,7 @@
 
 Claims speak of every profile, so a run in any of these refutes them. Without a profile of the user's own: a
 robot with its arm program, one whose task program cannot be deleted, one where nothing is predefined; then a
-second client, a second controlled program, a third program of any kind.
+second client, a second controlled program, a third program of any kind; then more about domains.
 """
 
 from collections.abc import Iterator, Mapping
@@ -11,6 +11,7 @@ from typing import Any
 ARM = {"name": "R_ARM", "control": "CONTROLLED", "domains": ["R_ARM"], "deletable": False}
 TOOL = {"name": "R_TOOL", "control": "CONTROLLED", "domains": ["R_TOOL"], "deletable": False}
 TASK = {"name": "TASK", "control": "CONTROLLING", "domains": ["TASK"], "deletable": False}
+SHARING = {"name": "OTHER", "control": "NORMAL", "domains": ["TASK"], "deletable": False}
 
 
 def worlds(profile: Mapping[str, Any] | None) -> Iterator[dict[str, Any]]:
@@ -27,3 +28,6 @@ def worlds(profile: Mapping[str, Any] | None) -> Iterator[dict[str, Any]]:
     yield {"sizes": {"PI": 2, "Client": 2}, "profile": {"predefined": [ARM], "associations": "multiple"}}
     yield {"sizes": {"PI": 3}, "profile": {"predefined": [ARM, TOOL, TASK]}}
     yield {"sizes": {"PI": 3}, "profile": {"predefined": [ARM]}}
+    yield {"sizes": {"PI": 1, "Domain": 1, "Upload": 1}, "profile": {"predefined": []}}
+    yield {"sizes": {"PI": 2, "Domain": 1}, "profile": {"predefined": [TASK, SHARING]}}
+    yield {"sizes": {"PI": 1, "Domain": 1, "Client": 2}, "profile": {"predefined": [], "associations": "multiple"}}
