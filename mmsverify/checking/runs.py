@@ -13,8 +13,10 @@ from mmsverify.checking.worlds import World
 from mmsverify.concrete import Machine, Scope, SearchResult, path_steps, replay, search
 from mmsverify.concrete.scope import CellKey, Value
 from mmsverify.concrete.slicing import cone, narrowed, restored, sliced
+from mmsverify.model import expr as ex
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Claim
+from mmsverify.model.sorts import ElementSort
 from mmsverify.results import PathStep
 
 
@@ -57,7 +59,8 @@ class Explorer:
         """Look for a run that settles each claim, at most ``states`` states a world."""
         for world in worlds:
             scope = world.scope(self.model, few)
-            for group in alike(self.model, [c for c in claims if c.name not in self.runs]):
+            open_here = [c for c in claims if c.name not in self.runs and self._has_all(scope, c)]
+            for group in alike(self.model, open_here):
                 self._tell(scope, group)
                 self._search(scope, group, states)
 
@@ -68,6 +71,11 @@ class Explorer:
             known = [c for c in claims if c.name in self.runs and self.runs[c.name].facts != scope.facts]
             for group in alike(self.model, known):
                 self._search(scope, group, states, max(self.runs[c.name].length for c in group) - 1)
+
+    def _has_all(self, scope: Scope, claim: Claim) -> bool:
+        """Whether the scope has elements of every sort that the claim speaks of; else it settles nothing."""
+        read = (self.model.signatures[name].sorts for name in ex.variables_of(claim.formula))
+        return all(scope.names(sort) for sorts in read for sort in sorts if isinstance(sort, ElementSort))
 
     def _tell(self, scope: Scope, group: Sequence[Claim]) -> None:
         if self.progress:

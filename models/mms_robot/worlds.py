@@ -1,8 +1,9 @@
 """The small worlds in which runs are looked for, the smaller ones first.
 
 Claims speak of every profile, so a run in any of these refutes them. Without a profile of the user's own: a
-robot with its arm program, one whose task program cannot be deleted, one where nothing is predefined; then a
-second client, a second controlled program, a third program of any kind; then more about domains.
+robot with its arm program, one domain that programs may be made of, one whose task program cannot be deleted,
+one where nothing is predefined; then a second client, a second controlled program, a third program of any
+kind, more about domains.
 """
 
 from collections.abc import Iterator, Mapping
@@ -22,12 +23,12 @@ def worlds(profile: Mapping[str, Any] | None) -> Iterator[dict[str, Any]]:
             yield {"sizes": {"PI": given + more, "Client": clients}, "profile": profile}
         return
     yield {"sizes": {"PI": 2}, "profile": {"predefined": [ARM]}}
+    yield {"sizes": {"PI": 1, "Domain": 1, "Upload": 1}, "profile": {"predefined": []}}
     yield {"sizes": {"PI": 2}, "profile": {"predefined": [ARM, TASK]}}
     yield {"sizes": {"PI": 2}, "profile": {"predefined": []}}
     yield {"sizes": {"PI": 1, "Client": 2}, "profile": {"predefined": [ARM]}}
     yield {"sizes": {"PI": 2, "Client": 2}, "profile": {"predefined": [ARM], "associations": "multiple"}}
     yield {"sizes": {"PI": 3}, "profile": {"predefined": [ARM, TOOL, TASK]}}
     yield {"sizes": {"PI": 3}, "profile": {"predefined": [ARM]}}
-    yield {"sizes": {"PI": 1, "Domain": 1, "Upload": 1}, "profile": {"predefined": []}}
     yield {"sizes": {"PI": 2, "Domain": 1}, "profile": {"predefined": [TASK, SHARING]}}
     yield {"sizes": {"PI": 1, "Domain": 1, "Client": 2}, "profile": {"predefined": [], "associations": "multiple"}}
