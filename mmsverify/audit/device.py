@@ -18,6 +18,7 @@ from mmsverify.audit.rules import Breach
 from mmsverify.audit.showing import Showing
 from mmsverify.audit.suspicion import alarming, of_caller, undecodable
 from mmsverify.audit.telling import Place, Telling
+from mmsverify.audit.transfers import UPLOADING, Transfers
 from mmsverify.concrete.belief import Belief
 from mmsverify.errors import DecodeError
 from mmsverify.formats import mms
@@ -45,6 +46,7 @@ class Device:
         self._telling = Telling(place)
         self._performing = Performing(belief, self._telling, self._acquaintance, arms)
         self._showing = Showing(belief, self._telling, self._acquaintance)
+        self._transfers = Transfers(belief, self._telling)
         self._notifications = Notifications(belief)
         self._conformance = Conformance()
 
@@ -119,7 +121,7 @@ class Device:
             case "confirmed-RequestPDU":
                 asked, breaches = association.request(message.index, side, pdu, message)
                 yield from breaches
-                yield from self._requested(association, asked)
+                yield from self._requested(association, asked, message)
             case "confirmed-ResponsePDU" | "confirmed-ErrorPDU" | "rejectPDU":
                 asked_for, breaches = association.answer(side, pdu)
                 yield from breaches
@@ -150,19 +152,29 @@ class Device:
             self._drop(association.concluded())
             self._release(association.name)
 
-    def _requested(self, association: Association, asked: Asked) -> Told:
-        if self._is_robot(association):
-            yield from contents.judge(asked.pdu)
-        if self._is_robot(association) and asked.side == "client":
+    def _requested(self, association: Association, asked: Asked, message: TraceMessage) -> Told:
+        if not self._is_robot(association):
+            return
+        yield from contents.judge(asked.pdu)
+        if asked.side == "client":
             yield from self._performing.requested(association.name, asked)
+        else:
+            yield from self._transfers.asked_by_robot(association.name, asked, message)
 
     def _answered(self, association: Association, asked: Asked, pdu: Pdu, message: TraceMessage) -> Told:
-        if not self._is_robot(association) or asked.side != "client":
+        if not self._is_robot(association):
+            return
+        if asked.side != "client":
+            self._transfers.answered_by_client(association.name, asked, pdu)
             return
         yield from contents.judge(pdu, asked.pdu)
         yield from self._conformance.rejected(association.negotiated, asked.pdu, pdu)
         call = self._performing.call(asked)
-        if call is not None:
+        if asked.pdu.service in UPLOADING:
+            yield from self._transfers.uploaded(association.name, asked, pdu, message)
+        elif asked.pdu.service == "getDomainAttributes":
+            yield from self._transfers.attributes(asked, pdu, message)
+        elif call is not None:
             yield from self._performing.answered(association.name, asked, call, pdu, message)
         elif pdu.kind == "confirmed-ResponsePDU":
             yield from self._showing.answered(asked, pdu, message)

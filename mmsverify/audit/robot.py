@@ -12,7 +12,7 @@ from typing import Any
 from mmsverify.audit import words
 from mmsverify.formats.mms import Pdu, error_class_code
 
-OBSERVING = frozenset({"status", "getProgramInvocationAttributes", "read"})
+OBSERVING = frozenset({"status", "getProgramInvocationAttributes", "getDomainAttributes", "read"})
 LIMITED = frozenset({"start", "stop", "resume", "reset"})
 
 
@@ -39,7 +39,14 @@ def _arguments(pdu: Pdu, arms: frozenset[str]) -> dict[str, Any] | None:
         case "createProgramInvocation":
             kind = words.word(words.CONTROL, detail if isinstance(detail, int) else 0) or "NORMAL"
             return {"pi": body["programInvocationName"], "kind": kind, "reuse": body["reusable"],
-                    "binds_arm": bool(arms.intersection(body["listOfDomainNames"]))}  # fmt: skip
+                    "binds_arm": bool(arms.intersection(body["listOfDomainNames"])),
+                    "domains": frozenset(body["listOfDomainNames"])}  # fmt: skip
+        case "initiateDownloadSequence" | "loadDomainContent":
+            return {"domain": body["domainName"], "shares": body["sharable"]}
+        case "storeDomainContent":
+            return {"domain": body["domainName"]}
+        case "deleteDomain":
+            return {"domain": body}
         case "deleteProgramInvocation":
             return {"pi": body}
         case "start":

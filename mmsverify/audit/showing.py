@@ -40,6 +40,9 @@ class Showing:
                     yield from self._shown(message, call.service, call, asked.slot)
                 else:
                     self._belief.drop(asked.slot)
+                bound = {"pi": asked.pdu.body, "domains": frozenset(pdu.body["listOfDomainNames"])}
+                domains = robot.Call("listOfDomainNames", bound)
+                yield from self._shown(message, str(asked.pdu.service), domains, None)
             case "read":
                 yield from self.values(asked.pdu, pdu, message, asked.slot)
             case "write":

@@ -9,6 +9,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 from mmsverify.audit import words
+from mmsverify.checking import domain_messages
 from mmsverify.formats.mms import Pdu, bit_string, number
 from mmsverify.model.rows import PLUS
 
@@ -29,8 +30,8 @@ def request(invoke_id: int, service: str, given: Arguments) -> Pdu:
 def _asked(service: str, given: Arguments) -> tuple[Any, Any]:
     match service:
         case "createProgramInvocation":
-            domain = "R_ARM" if given["binds_arm"] else given["pi"]
-            named = {"programInvocationName": given["pi"], "listOfDomainNames": [domain]}
+            domains = domain_messages.names(given)
+            named = {"programInvocationName": given["pi"], "listOfDomainNames": domains}
             return {**named, "reusable": given["reuse"]}, words.CONTROL.index(given["kind"]) or None
         case "deleteProgramInvocation":
             return given["pi"], None
@@ -58,7 +59,7 @@ def _asked(service: str, given: Arguments) -> tuple[Any, Any]:
                 "specificationWithResult": False,
                 "variableAccessSpecification": ("listOfVariable", asked),
             }, None
-    return None, None
+    return domain_messages.asked(service, given), None
 
 
 def _named(name: str) -> tuple[str, Any]:
@@ -101,7 +102,7 @@ def _selection(given: Arguments) -> dict[str, Any]:
 def answer(invoke_id: int, service: str, given: Arguments, result: str, after: State) -> Pdu:
     """The response of a row with its result; a refusal tells the state where the protocol does."""
     if result == PLUS:
-        body, detail = _answered(service, after)
+        body, detail = _answered(service, given, after)
         return Pdu("confirmed-ResponsePDU", invoke_id, service, body, detail)
     error: dict[str, Any] = {"errorClass": ("service", number("ServiceProblem", "object-state-conflict"))}
     if service in TELLS_STATE:
@@ -109,13 +110,13 @@ def answer(invoke_id: int, service: str, given: Arguments, result: str, after: S
     return Pdu("confirmed-ErrorPDU", invoke_id, body={"serviceError": error})
 
 
-def _answered(service: str, after: State) -> tuple[Any, Any]:
+def _answered(service: str, given: Arguments, after: State) -> tuple[Any, Any]:
     match service:
         case "vMDReset" | "status":
             return _status(after), robot_status(after)
         case "takeControl":
             return ("noResult", None), None
-    return None, None
+    return domain_messages.answered(service, given), None
 
 
 def _status(state: State) -> dict[str, int]:
@@ -167,7 +168,7 @@ def attributes(invoke_id: int, name: str, state: State) -> Pdu:
         return Pdu("confirmed-ErrorPDU", invoke_id, body={"serviceError": error})
     body = {
         "state": words.STATE.index(state[f"state[{name}]"]),
-        "listOfDomainNames": ["R_ARM" if state[f"arm[{name}]"] else name],
+        "listOfDomainNames": domain_messages.bound(name, state),
         "mmsDeletable": state[f"deletable[{name}]"],
         "reusable": state[f"reusable[{name}]"],
         "monitor": False,
@@ -205,8 +206,7 @@ def initiation(sort: str) -> Pdu:
     offered: Sequence[str] = (
         "status", "getNameList", "identify", "read", "takeControl", "relinquishControl", "start", "stop",
         "resume", "reset", "kill", "createProgramInvocation", "deleteProgramInvocation",
-        "getProgramInvocationAttributes", "write", "getDomainAttributes", "deleteDomain", "loadDomainContent",
-        "storeDomainContent", "unsolicitedStatus", "conclude", "cancel",
+        "getProgramInvocationAttributes", "write", "unsolicitedStatus", "conclude", "cancel", *DOMAIN_SERVICES,
     )  # fmt: skip
     body = {
         f"{past}MaxServOutstandingCalling": OUTSTANDING,
@@ -221,4 +221,9 @@ def initiation(sort: str) -> Pdu:
     return Pdu(f"initiate-{sort}PDU", body=body)
 
 
+DOMAIN_SERVICES = (
+    "initiateDownloadSequence", "downloadSegment", "terminateDownloadSequence", "initiateUploadSequence",
+    "uploadSegment", "terminateUploadSequence", "loadDomainContent", "storeDomainContent", "deleteDomain",
+    "getDomainAttributes",
+)  # fmt: skip
 ADDITIONAL = ("vMDStop", "vMDReset", "select", "alterProgramInvocationAttributes")

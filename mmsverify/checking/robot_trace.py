@@ -11,7 +11,9 @@ import json
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+from mmsverify.checking import domain_messages
 from mmsverify.checking import robot_messages as messages
+from mmsverify.checking.domain_messages import FROM_ROBOT
 from mmsverify.formats.mms import Pdu
 from mmsverify.formats.trace import Sender
 from mmsverify.model.rows import PLUS
@@ -24,6 +26,11 @@ SERVICES = {
     "vmd_reset": "vMDReset", "take_control": "takeControl", "relinquish_control": "relinquishControl",
     "alter": "alterPI", "start_fails": "start", "stop_fails": "stop", "resume_fails": "resume",
     "reset_fails": "reset",
+    "initiate_download": "initiateDownloadSequence", "segment_given": "downloadSegment",
+    "segment_failed": "downloadSegment", "download_terminated": "terminateDownloadSequence",
+    "initiate_upload": "initiateUploadSequence", "upload_segment": "uploadSegment",
+    "terminate_upload": "terminateUploadSequence", "load_domain": "loadDomainContent",
+    "store_domain": "storeDomainContent", "delete_domain": "deleteDomain",
 }  # fmt: skip
 INDICATIONS = {
     "start_indicated": "start", "stop_indicated": "stop", "resume_indicated": "resume",
@@ -54,7 +61,7 @@ def profile_of(first: PathStep) -> dict[str, str]:
         {
             "name": name,
             "control": state[f"predefined_control[{name}]"],
-            "domains": ["R_ARM" if state[f"predefined_arm[{name}]"] else name],
+            "domains": domain_messages.bound(name, state, "predefined_uses", "predefined_arm"),
             "deletable": state[f"predefined_deletable[{name}]"],
             "reusable": state[f"predefined_reusable[{name}]"],
         }
@@ -86,13 +93,19 @@ class _Speaker:
         yield from self._show(self.steps[-1])
 
     def _show(self, step: PathStep) -> Iterator[Sent]:
-        """Status, and the attributes of every program invocation."""
+        """Status, and the attributes of every program invocation and every domain."""
         yield Sent(OBSERVER, "client", messages.request(self._id(), "status", {}))
         yield Sent(OBSERVER, "server", messages.answer(self.last_id, "status", {}, PLUS, step.state))
         for name in messages.programs(step.state):
             asked = messages.request(self._id(), "getProgramInvocationAttributes", {"pi": name})
             yield Sent(OBSERVER, "client", asked)
             yield Sent(OBSERVER, "server", messages.attributes(self.last_id, name, step.state))
+        programs = messages.programs(step.state)
+        for name in domain_messages.domains(step.state):
+            asked = messages.request(self._id(), "getDomainAttributes", {"domain": name})
+            yield Sent(OBSERVER, "client", asked)
+            shown = domain_messages.attributes(self.last_id, name, step.state, programs)
+            yield Sent(OBSERVER, "server", shown)
 
     def _id(self) -> int:
         self.last_id += 1
@@ -122,11 +135,13 @@ class _Speaker:
 
     def _perform(self, step: PathStep, service: str, result: str) -> Iterator[Sent]:
         user = str(step.arguments["user"])
+        sides: tuple[Sender, Sender] = ("server", "client")
+        asking, answering = sides if service in FROM_ROBOT else reversed(sides)
         asked = self.waiting.pop((str(step.arguments.get("request")), service), None)
         if asked is None:
             asked = self._id()
-            yield Sent(user, "client", messages.request(asked, service, step.arguments))
-        yield Sent(user, "server", messages.answer(asked, service, step.arguments, result, step.state))
+            yield Sent(user, asking, messages.request(asked, service, step.arguments))
+        yield Sent(user, answering, messages.answer(asked, service, step.arguments, result, step.state))
 
     def _associate(self, step: PathStep, row: str, result: str) -> Iterator[Sent]:
         user = str(step.arguments["user"])

@@ -54,9 +54,15 @@ class Domains(Vocabulary):
             & (~predefined_domain[d] >> (domain_state[d] == DomainState.NON_EXISTENT))
         ),
     )
-    sharing_at_power_on = Initially("R-8.2.1-3", for_all(d)(sharable[d] == predefined_sharable[d]), "R-8.2.2-2", "R-8.2.3-2")
-    fixed_at_power_on = Initially("R-8.2.1-3", for_all(d)(standard_domain[d] >> ~domain_deletable[d]), "R-8.2.2-2", "R-8.2.3-2")
-    bound_at_power_on = Initially("R-8.3.1-2", for_all(p, d)(uses[p, d] == predefined_uses[p, d]), "R-8.3.2-2")
+    sharing_at_power_on = Initially(
+        "R-8.2.1-3", for_all(d)(sharable[d] == predefined_sharable[d]), "R-8.2.2-2", "R-8.2.3-2"
+    )
+    fixed_at_power_on = Initially(
+        "R-8.2.1-3", for_all(d)(standard_domain[d] >> ~domain_deletable[d]), "R-8.2.2-2", "R-8.2.3-2"
+    )
+    bound_at_power_on = Initially(
+        "R-8.3.1-2", for_all(p, d)(uses[p, d] == predefined_uses[p, d]), "R-8.3.2-2"
+    )
     no_download_at_power_on = Initially("R-9.2.2.1-3", for_all(u, d)(~loads[u, d]))
     no_upload_at_power_on = Initially(
         "R-9.2.2.1-3", for_all(u, x)(~uploads[u, x] & (upload_state[x] == UploadState.NON_EXISTENT))
@@ -70,13 +76,26 @@ class Domains(Vocabulary):
                                 & ((standard_domain[d] & ~arm_domain[d]) >> ~predefined_sharable[d])
                                 & (calibration_domain[d] >> (standard_domain[d] & ~arm_domain[d]))), "R-8.2.2-2", "R-8.2.3-2")  # fmt: skip
     predefined_bindings = Assume(
-        "R-7.3.3.2.3-0", for_all(p, d)(predefined_uses[p, d] >> (predefined[p] & predefined_domain[d])), "B-CREATE"
+        "R-7.3.3.2.3-0",
+        for_all(p, d)(predefined_uses[p, d] >> (predefined[p] & predefined_domain[d])),
+        "B-CREATE",
     )
     predefined_unshared = Assume(
         "R-7.3.3.2.3-0", for_all(a, b, d)((predefined_uses[a, d] & predefined_uses[b, d] & (a != b)) >> predefined_sharable[d]), "B-CREATE"
     )  # fmt: skip
-    arm_bound = Assume("R-8.3.1-2", for_all(p, d)((standard_arm[p] & arm_domain[d]) >> predefined_uses[p, d]), "R-8.3.1-1", "R-8.2.1-4")
-    calibration_bound = Assume("R-8.3.2-2", for_all(p, d)((calibrates[p] & calibration_domain[d]) >> predefined_uses[p, d]), "R-8.3.2-1", "R-8.2.2-2", "R-6.3.6-2")
+    arm_bound = Assume(
+        "R-8.3.1-2",
+        for_all(p, d)((standard_arm[p] & arm_domain[d]) >> predefined_uses[p, d]),
+        "R-8.3.1-1",
+        "R-8.2.1-4",
+    )
+    calibration_bound = Assume(
+        "R-8.3.2-2",
+        for_all(p, d)((calibrates[p] & calibration_domain[d]) >> predefined_uses[p, d]),
+        "R-8.3.2-1",
+        "R-8.2.2-2",
+        "R-6.3.6-2",
+    )
 
     # Downloading (A5.1): the client starts the sequence, the robot asks for each segment and ends it.
     initiate_download = Procedure(
@@ -219,9 +238,9 @@ class Domains(Vocabulary):
                   says="IN-USE and the list of program invocations contradict each other"),
             needs("R-9.2.2.2.1-3", "B-DOMAIN", rule="domain.unknown", that=domain_state[domain] != DomainState.NON_EXISTENT,
                   says="{domain} does not exist"),
-            needs("R-9.2.2.2.1-3", "B-DOMAIN", rule="domain.deletable", that=domain_deletable[domain] == shown_deletable,
+            needs("R-9.2.2.2.1-3", "B-DOMAIN", rule="domain.deletable", that=standard_domain[domain] | (domain_deletable[domain] == shown_deletable),
                   says="mmsDeletable of {domain} cannot be {shown_deletable}"),
-            needs("R-9.2.2.2.1-3", "B-DOMAIN", rule="domain.sharable", that=sharable[domain] == shown_sharable,
+            needs("R-9.2.2.2.1-3", "B-DOMAIN", rule="domain.sharable", that=standard_domain[domain] | (sharable[domain] == shown_sharable),
                   says="sharable of {domain} cannot be {shown_sharable}"),
             needs("R-9.2.2.2.1-3", "B-DOMAIN", rule="domain.state", that=~transient >> (domain_state[domain] == shown_domain),
                   says="{domain} cannot be in that state"),
@@ -291,18 +310,41 @@ class Domains(Vocabulary):
             (domain_deletable[d] & for_all(p)(~uses[p, d])) >> (domain_state[d].next == DomainState.NON_EXISTENT)),
         "R-5.3.1.3.3.11-2", "R-5.3.1.3.3.12-2", says="VMD Reset deletes every deletable domain that nothing is bound to")  # fmt: skip
 
-    download_reached = Sometimes("R-A5.1-3", for_some(d)(domain_state[d] == DomainState.COMPLETE), "B-DOWNLOAD")
-    program_loaded = Sometimes("R-A5.1-3", for_some(p, d)(exists[p] & ~predefined[p] & uses[p, d]), "B-CREATE")
-    upload_ends = Sometimes("R-9.2.2.2.2.1-2", for_some(x)(upload_state[x] == UploadState.UPLOADED), "B-UPLOAD")
-    download_is_lost = Sometimes("R-9.2.2.2.2.1-1", service_is("release") & for_some(u, d)(loads[u, d] & ~loads[u, d].next), "B-DOWNLOAD")
+    download_reached = Sometimes(
+        "R-A5.1-3", for_some(d)(domain_state[d] == DomainState.COMPLETE), "B-DOWNLOAD"
+    )
+    program_loaded = Sometimes(
+        "R-A5.1-3", for_some(p, d)(exists[p] & ~predefined[p] & uses[p, d]), "B-CREATE"
+    )
+    upload_ends = Sometimes(
+        "R-9.2.2.2.2.1-2", for_some(x)(upload_state[x] == UploadState.UPLOADED), "B-UPLOAD"
+    )
+    download_is_lost = Sometimes(
+        "R-9.2.2.2.2.1-1",
+        service_is("release") & for_some(u, d)(loads[u, d] & ~loads[u, d].next),
+        "B-DOWNLOAD",
+    )
 
 
 class DomainsRepaired(Domains, VocabularyRepaired):
     """The repaired reading: what would change domains is refused in local control (RP-10) and by the logical status (RP-11)."""
 
-    not_local = refuse("R-6.2.1-6", "R-3.2.1-1", "RP-10", when=local_control(), rule="download.local-control", says="the robot is in local control")
-    admitted = refuse("R-6.1.3.2.5-2", "B-STATUS", "RP-11", unless=logical().isin(ALL_BUT_RUNNING), rule="download.logical-status",
-                      says="the logical status of the VMD does not admit the service")
+    not_local = refuse(
+        "R-6.2.1-6",
+        "R-3.2.1-1",
+        "RP-10",
+        when=local_control(),
+        rule="download.local-control",
+        says="the robot is in local control",
+    )
+    admitted = refuse(
+        "R-6.1.3.2.5-2",
+        "B-STATUS",
+        "RP-11",
+        unless=logical().isin(ALL_BUT_RUNNING),
+        rule="download.logical-status",
+        says="the logical status of the VMD does not admit the service",
+    )
 
     initiate_download = Procedure(
         "R-9.2.2.2.2.1",

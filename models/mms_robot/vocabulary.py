@@ -139,7 +139,9 @@ class Vocabulary(Model):
     predefined_domain = Relation(Domain, rigid=True, doc="exists at power-on")
     predefined_uses = Relation(PI, Domain, rigid=True)
     predefined_sharable = Relation(Domain, rigid=True)
-    standard_domain = Relation(Domain, rigid=True, doc="R_ARM, R_CAL or R_SAFE by its standardized name (8.2)")
+    standard_domain = Relation(
+        Domain, rigid=True, doc="R_ARM, R_CAL or R_SAFE by its standardized name (8.2)"
+    )
     arm_domain = Relation(Domain, rigid=True, doc="R_ARM (8.2.1)")
     calibration_domain = Relation(Domain, rigid=True, doc="R_CAL (8.2.2)")
     domain_state = Variable(DomainState, Domain)
@@ -220,7 +222,9 @@ class Vocabulary(Model):
     runs = Derived(state[p].isin([State.RUNNING, State.STOPPING]), over=[p])
     selected_started = Derived(for_some(p)(selected[p] & started[p]))
     in_use = Derived(for_some(p)(exists[p] & uses[p, d]), over=[d])
-    in_transfer = Derived(domain_state[d].isin([DomainState.LOADING, DomainState.COMPLETE, DomainState.INCOMPLETE]), over=[d])
+    in_transfer = Derived(
+        domain_state[d].isin([DomainState.LOADING, DomainState.COMPLETE, DomainState.INCOMPLETE]), over=[d]
+    )
 
     # An association ends: what was being downloaded on it is gone, and so are its upload state machines.
     end_transfers = [

@@ -31,4 +31,7 @@ def worlds(profile: Mapping[str, Any] | None) -> Iterator[dict[str, Any]]:
     yield {"sizes": {"PI": 3}, "profile": {"predefined": [ARM, TOOL, TASK]}}
     yield {"sizes": {"PI": 3}, "profile": {"predefined": [ARM]}}
     yield {"sizes": {"PI": 2, "Domain": 1}, "profile": {"predefined": [TASK, SHARING]}}
-    yield {"sizes": {"PI": 1, "Domain": 1, "Client": 2}, "profile": {"predefined": [], "associations": "multiple"}}
+    yield {
+        "sizes": {"PI": 1, "Domain": 1, "Client": 2},
+        "profile": {"predefined": [], "associations": "multiple"},
+    }

@@ -29,6 +29,8 @@ FINDINGS: dict[str, list[Told]] = {
         (7, "error", "negotiation.service", UNLISTED),
         (9, "error", "negotiation.service", UNLISTED),
         (11, "error", "negotiation.service", UNLISTED),
+        # The standard's own example spells the domain in two ways: no download of that name is going on.
+        (12, "error", "download.not-begun", ("R-A5.1-3", "R-9.2.2.2.2.1-1")),
         (13, "error", "negotiation.service", UNLISTED),
         (15, "error", "negotiation.service", UNLISTED),
         (26, "error", "status.paused-unselected", ("R-6.3.4.6-2", "R-7.3.2.1.1.4-1")),

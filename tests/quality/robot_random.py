@@ -9,6 +9,7 @@ from typing import Any
 
 from robot_talk import ASSOCIATING, LOOKS, Act, Talk, row_name
 
+from mmsverify.checking.domain_messages import FROM_ROBOT
 from mmsverify.concrete import Scope, scope_for
 from mmsverify.concrete.formulas import Formulas
 from mmsverify.concrete.ground import Grounding
@@ -58,9 +59,19 @@ class Chance:
         self.model, self.scope = talk.model, talk.scope
         self.gaps = gaps
         rows = talk.model.actions
-        self.services = sorted({r.on.service for r in rows if r.on.phase == "response"} - ASSOCIATING.keys())
+        asked = (r for r in rows if r.on.phase == "response" and self._can_be_named(r))
+        self.services = sorted({r.on.service for r in asked} - ASSOCIATING.keys() - FROM_ROBOT)
+        self.of_robot = [r for r in rows if r.on.service in FROM_ROBOT and self._can_be_named(r)]
         self.internal = [row for row in rows if row.on.phase == "internal"]
-        self.at_panel = [row for row in rows if any(p.name == "panel" for p in row.on.parameters)]
+        self.at_panel = [
+            row
+            for row in rows
+            if any(p.name == "panel" for p in row.on.parameters) and self._can_be_named(row)
+        ]
+
+    def _can_be_named(self, row: Row) -> bool:
+        """Whether there is something of every sort that the row's parameters name."""
+        return all(self.scope.parameter_values(row, parameter) for parameter in row.parameters)
 
     def hold(self, count: int) -> Talk:
         """A conversation of ``count`` messages."""
@@ -73,7 +84,7 @@ class Chance:
         """One thing happens, or none."""
         acts: list[tuple[int, Callable[[], Any]]] = [
             (10, self.exchange), (8, self.ask), (12, self.perform), (12, self.answer), (8, self.unseen),
-            (2, self.tell), (3, self.panel), (1, self.leave),
+            (2, self.tell), (3, self.panel), (1, self.leave), (6, self.serve),
         ]  # fmt: skip
         if not self.talk.open or self.random.random() < 0.05:
             self.join()
@@ -98,6 +109,15 @@ class Chance:
     def tell(self) -> None:
         """The robot tells its status."""
         self.talk.do(Act("tell", self.random.choice(self.talk.open)))
+
+    def serve(self) -> None:
+        """The robot asks for a segment of a domain, or ends a download."""
+        user = self.random.choice(self.talk.open)
+        for row in self.random.sample(self.of_robot, len(self.of_robot)):
+            for _ in range(GUESSES):
+                given = self.guessed(row, {"user": user})
+                if self.talk.do(Act("serve", user, row_name(row), given)):
+                    return
 
     # Requests.
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from mmsverify.audit import robot as adapter
+from mmsverify.checking import domain_messages
 from mmsverify.checking import robot_messages as messages
 from mmsverify.checking.robot_trace import profile_of
 from mmsverify.concrete import Scope
@@ -31,13 +32,19 @@ from mmsverify.samples.cell import OFFERED, ROBOT_ADDITIONAL
 VMD = "robot"
 ARMS = frozenset({"R_ARM"})
 OUTSTANDING = 5
+SERVICES = (*OFFERED["server"], "loadDomainContent", "storeDomainContent")
 BEGIN, PAUSE = 1_764_000_000_000_000_000, 10_000_000
 ASSOCIATING = {"initiate": "open", "release": "close"}
 """Rows that answer to no confirmed request, and the act that performs each."""
 
 LOOKS = {
     "status": ("status",),
-    "getProgramInvocationAttributes": ("getProgramInvocationAttributes", "noProgramInvocationAttributes"),
+    "getProgramInvocationAttributes": (
+        "getProgramInvocationAttributes",
+        "noProgramInvocationAttributes",
+        "listOfDomainNames",
+    ),
+    "getDomainAttributes": ("getDomainAttributes", "noDomainAttributes"),
     "read": ("R_VLOCAL",),
 }
 """Services that show state, with the observations of the model that their answers are."""
@@ -45,13 +52,16 @@ LOOKS = {
 IN_REFUSALS = ("stateAfterFailure",)
 """Observations that stand in the answers of other services."""
 
+IN_REQUESTS = ("downloadSegmentAsked", "terminateDownloadSequenceAsked")
+"""Observations that are requests of the robot."""
+
 
 @dataclass(frozen=True, slots=True)
 class Act:
     """One thing that happens.
 
-    ``kind`` is ``open``, ``close``, ``reset``, ``ask``, ``perform``, ``answer``, ``happen``, ``tell``,
-    ``look`` or ``gap``; ``who`` an association or a request, ``what`` a service or a row.
+    ``kind`` is ``open``, ``close``, ``reset``, ``ask``, ``serve``, ``perform``, ``answer``, ``happen``,
+    ``tell``, ``look`` or ``gap``; ``who`` an association or a request, ``what`` a service or a row.
     """
 
     kind: str
@@ -146,7 +156,7 @@ class Talk:
         self.open.append(act.who)
         self.messages.append(Link(act.who, "open"))
         self._say(act.who, "client", pdus.initiation("Request", OFFERED["client"], (), OUTSTANDING))
-        agreed = pdus.initiation("Response", OFFERED["server"], ROBOT_ADDITIONAL, OUTSTANDING)
+        agreed = pdus.initiation("Response", SERVICES, ROBOT_ADDITIONAL, OUTSTANDING)
         self._say(act.who, "server", agreed)
         return True
 
@@ -225,6 +235,23 @@ class Talk:
         self._say(request.user, "server", request.answer)
         return True
 
+    def _serve(self, act: Act) -> bool:
+        """The robot asks the client for something that it may ask for, and is answered at once."""
+        row = next((r for r in self.model.actions if row_name(r) == act.what), None)
+        if row is None or act.who not in self.open:
+            return False
+        (needed,) = self.rows("shown", f"{row.on.service}Asked")
+        asked = {"discard": False, **act.given}
+        if self.takes(needed, self.bindings(needed, asked)) is None or not self._take(row, act.given):
+            return False
+        invoke_id = self._id(act.who)
+        said = {name: readable(held) for name, held in act.given.items()}
+        self._say(act.who, "server", messages.request(invoke_id, row.on.service, said))
+        self._say(
+            act.who, "client", messages.answer(invoke_id, row.on.service, said, row.answer, self.shown())
+        )
+        return True
+
     def _happen(self, act: Act) -> bool:
         """A step that no message shows; what explains an observed state only is observed at once."""
         row = next((r for r in self.model.actions if row_name(r) == act.what), None)
@@ -278,12 +305,17 @@ class Talk:
         yield "status", {}
         for name in self.scope.elements["PI"]:
             yield "getProgramInvocationAttributes", {"pi": name}
+        for name in self.scope.elements["Domain"]:
+            yield "getDomainAttributes", {"domain": name}
         yield "read", {"variables": tuple(sorted(messages.VARIABLES))}
 
     def _looked(self, request: Pending) -> Pdu:
         shown, invoke_id = self.shown(), request.invoke_id
         if request.service == "getProgramInvocationAttributes":
             return messages.attributes(invoke_id, request.asked["pi"], shown)
+        if request.service == "getDomainAttributes":
+            programs = messages.programs(shown)
+            return domain_messages.attributes(invoke_id, request.asked["domain"], shown, programs)
         if request.service == "read":
             return messages.values(invoke_id, request.asked["variables"], shown)
         return messages.answer(invoke_id, request.service, {}, PLUS, shown)

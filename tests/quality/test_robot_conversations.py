@@ -10,11 +10,13 @@ from typing import Any
 import pytest
 from robot import robot
 from robot_random import Chance, beginning
-from robot_talk import ARMS, ASSOCIATING, IN_REFUSALS, LOOKS, Talk, retold, row_name, shrunk
+from robot_talk import ARMS, ASSOCIATING, IN_REFUSALS, IN_REQUESTS, LOOKS, Talk, retold, row_name, shrunk
 
 from mmsverify.audit import robot as adapter
+from mmsverify.audit.transfers import UPLOADING
 from mmsverify.auditing import audit_traces
 from mmsverify.checking import robot_messages as messages
+from mmsverify.checking.domain_messages import FROM_ROBOT
 from mmsverify.concrete.trace_path import readable
 from mmsverify.formats.mms import decode, encode
 from mmsverify.model import ModelData
@@ -24,8 +26,11 @@ ARM = {"name": "R_ARM", "control": "CONTROLLED", "domains": ["R_ARM"], "deletabl
 CALIBRATION = {"name": "R_CAL", "control": "NORMAL", "domains": ["R_CAL"], "deletable": False}
 TASK = {"name": "TASK", "control": "CONTROLLING", "domains": ["TASK"], "deletable": False, "reusable": False}
 ROBOTS: tuple[tuple[dict[str, Any], dict[str, int]], ...] = (
-    ({"predefined": [ARM, CALIBRATION]}, {"PI": 4, "Client": 1, "Request": 2}),
-    ({"predefined": [ARM, CALIBRATION], "associations": "multiple"}, {"PI": 4, "Client": 2, "Request": 2}),
+    ({"predefined": [ARM, CALIBRATION]}, {"PI": 4, "Client": 1, "Request": 2, "Domain": 4, "Upload": 1}),
+    (
+        {"predefined": [ARM, CALIBRATION], "associations": "multiple"},
+        {"PI": 4, "Client": 2, "Request": 2, "Domain": 3, "Upload": 2},
+    ),
     ({"predefined": [ARM, TASK], "selected_at_power_on": "TASK"}, {"PI": 3, "Client": 1, "Request": 2}),
     (
         {"predefined": [], "step_limited": False, "associations": "multiple"},
@@ -88,8 +93,9 @@ LEAST_TAKEN = 0.6
 
 
 def services(model: ModelData) -> list[str]:
+    """Those of which a request alone says all that the robot is asked for."""
     found = {row.on.service for row in model.rows if row.on.phase == "response"}
-    return sorted(found - ASSOCIATING.keys())
+    return sorted(found - ASSOCIATING.keys() - FROM_ROBOT - UPLOADING)
 
 
 @pytest.mark.parametrize("service", services(robot("repaired")))
@@ -100,7 +106,8 @@ def test_a_request_of_every_service_is_encoded_and_read_back(service: str) -> No
         chance.random = Random(seed)
         wanted = chance.arguments(service, {"request": "request1", "user": "client1", "panel": False})
         said = {name: readable(held) for name, held in wanted.items()}
-        said["binds_arm"] = said.get("pi") in ARMS  # of that name, it can have no other domain
+        # Of that name, it can have no other domain.
+        said["binds_arm"] = said.get("pi") in ARMS or "R_ARM" in said.get("domains", ())
         said["controlled"] = (
             said.get("controlled", []) if said.get("controlling") else []
         )  # no list without its owner
@@ -113,7 +120,7 @@ def test_a_request_of_every_service_is_encoded_and_read_back(service: str) -> No
         }
 
 
-ALWAYS_SAID = frozenset({"pi", "kind", "reuse", "binds_arm", "controlling", "controlled"})
+ALWAYS_SAID = frozenset({"pi", "kind", "reuse", "binds_arm", "controlling", "controlled", "domain", "shares"})
 """Arguments that a request carries whatever the others are; a count, say, needs a limit."""
 
 
@@ -128,5 +135,5 @@ def shown_services(model: ModelData) -> Iterator[str]:
 
 
 def test_every_observation_of_the_model_is_made_by_some_message() -> None:
-    made = {name for names in LOOKS.values() for name in names} | set(IN_REFUSALS)
+    made = {name for names in LOOKS.values() for name in names} | {*IN_REFUSALS, *IN_REQUESTS}
     assert set(shown_services(robot("repaired"))) == made
