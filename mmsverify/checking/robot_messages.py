@@ -206,7 +206,8 @@ def initiation(sort: str) -> Pdu:
     offered: Sequence[str] = (
         "status", "getNameList", "identify", "read", "takeControl", "relinquishControl", "start", "stop",
         "resume", "reset", "kill", "createProgramInvocation", "deleteProgramInvocation",
-        "getProgramInvocationAttributes", "write", "unsolicitedStatus", "conclude", "cancel", *DOMAIN_SERVICES,
+        "getProgramInvocationAttributes", "write", "unsolicitedStatus", "conclude", "cancel",
+        *DOMAIN_SERVICES,
     )  # fmt: skip
     body = {
         f"{past}MaxServOutstandingCalling": OUTSTANDING,
