@@ -30,8 +30,11 @@ _FOREIGN = frozenset({
 """Services whose details are NULL for a robot and another companion standard's in the 2003 edition."""
 
 
-def judge(pdu: Pdu, answers: Pdu | None = None) -> Iterator[Breach]:
-    """The breaches of one PDU of a robot's association; an answer comes with its request."""
+def judge(pdu: Pdu, answers: Pdu | None = None, *, agreed: bool = False) -> Iterator[Breach]:
+    """The breaches of one PDU of a robot's association; an answer comes with its request.
+
+    ``agreed``: Initiate shows that both sides speak the robot's abstract syntax.
+    """
     if pdu.kind == "confirmed-ErrorPDU":
         yield from _failed(pdu, answers)
     elif pdu.kind == "confirmed-RequestPDU":
@@ -40,6 +43,8 @@ def judge(pdu: Pdu, answers: Pdu | None = None) -> Iterator[Breach]:
         yield from _notified(pdu.body)
     elif pdu.kind in ("confirmed-ResponsePDU", "unconfirmed-PDU"):
         yield from _told(str(pdu.service), pdu.body, pdu.detail)
+        if agreed and pdu.service == "identify":
+            yield from _identified(pdu.body)
     if pdu.detail is not None and pdu.service in _FOREIGN:
         yield Breach("detail.foreign", {"service": words.title(str(pdu.service))})
 
@@ -56,10 +61,13 @@ def _told(service: str, body: Any, detail: Any) -> Iterator[Breach]:
             yield from _status(service, body, detail)
         case "getProgramInvocationAttributes":
             yield from _unnamed(service, "state", body["state"], _BASE, words.STATE)
-        case "identify":
-            listed = body.get("listOfAbstractSyntaxes")
-            if listed and robot_syntax() not in listed:
-                yield Breach("identify.syntax", {"listed": ", ".join(listed), "wanted": robot_syntax()})
+
+
+def _identified(body: Mapping[str, Any]) -> Iterator[Breach]:
+    """Who lists abstract syntaxes and speaks the robot's should list that one, too."""
+    listed = body.get("listOfAbstractSyntaxes")
+    if listed and robot_syntax() not in listed:
+        yield Breach("identify.syntax", {"listed": ", ".join(listed), "wanted": robot_syntax()})
 
 
 def _status(service: str, body: Mapping[str, Any], detail: Mapping[str, Any] | None) -> Iterator[Breach]:

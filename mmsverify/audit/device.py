@@ -167,7 +167,8 @@ class Device:
         if asked.side != "client":
             self._transfers.answered_by_client(association.name, asked, pdu)
             return
-        yield from contents.judge(pdu, asked.pdu)
+        agreed = association.negotiated is not None and association.negotiated.robot
+        yield from contents.judge(pdu, asked.pdu, agreed=agreed)
         yield from self._conformance.rejected(association.negotiated, asked.pdu, pdu)
         call = self._performing.call(asked)
         if asked.pdu.service in UPLOADING:

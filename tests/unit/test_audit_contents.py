@@ -138,6 +138,12 @@ def test_a_robot_names_its_abstract_syntax_if_it_names_any(
     assert told(listen(cell)) == rules
 
 
+def test_a_device_of_which_nothing_is_known_may_name_other_syntaxes(listen: Listen) -> None:
+    made = Cell(Recording("cell"))
+    made.call("identify", None, gives={**NAMES, "listOfAbstractSyntaxes": ["1.0.9506.2.1"]})
+    assert listen(made) == []
+
+
 def test_an_answer_in_the_robots_form_needs_a_proposal_in_it(listen: Listen) -> None:
     made = Cell(Recording("cell"))
     proposal = pdus.initiation("Request", ("status",), ())
