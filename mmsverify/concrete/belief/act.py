@@ -73,7 +73,7 @@ def take(
 
 
 def _able(ready: Ready, state: Partial, constraints: Constraints) -> tuple[list[Partial], list[Refusal]]:
-    """The states in which the row can be taken; an unseen name that is chosen narrows nothing."""
+    """The states in which the row can be taken; of an unseen name nothing is found out."""
     if not ready.unseen:
         return satisfy(ready, state, constraints)
     return ([], []) if any(f.holds(state) == NO for f in ready.guard) else ([state], [])
@@ -126,7 +126,8 @@ def _written(updates: Iterable[Write], state: Partial) -> dict[Key, Known]:
         if holds == NO:
             continue
         known = write.value.known(state) if holds == YES else _perhaps(write, state, cells)
-        cells[write.key] = join(known, state.get(write.key)) if write.vague else known
+        before = cells.get(write.key, state.get(write.key))
+        cells[write.key] = join(known, before) if write.vague else known
     return cells
 
 

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 from mmsverify.concrete.belief.goal import Goal, Ways, obstacle
-from mmsverify.concrete.belief.partial import Partial
+from mmsverify.concrete.belief.partial import OTHER, Partial
 
 Tag = tuple[str, tuple[str, ...]]
 History = frozenset[Tag]
@@ -73,12 +73,15 @@ class Field:
                 self._barred[name] = self._barred.get(name, 0) | bit
 
     def gone(self, history: History) -> int:
-        """The moves that cannot come any more: they have been made, or others bar them."""
+        """The moves that cannot come any more: they have been made, or others bar them.
+
+        What one unseen name has done, another may do.
+        """
         found = self._gone.get(history)
         if found is None:
             found = 0
             for tag in history:
-                found |= self._tags.get(tag, 0) | self._barred.get(tag[0], 0)
+                found |= self._barred.get(tag[0], 0) | (0 if OTHER in tag[1] else self._tags.get(tag, 0))
             self._gone[history] = found
         return found
 

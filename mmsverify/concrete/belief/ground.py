@@ -85,7 +85,7 @@ class Ground:
                 members = env.get(name)
                 return OPEN if members is None else TRUE if element(inner, env) in members else FALSE
             case Present(name):
-                return FALSE if env.get(name, ABSENT) is ABSENT else TRUE
+                return OPEN if name not in env else FALSE if env[name] is ABSENT else TRUE
             case ex.Not(body):
                 return negated(self.formula(body, env))
             case And(parts):

@@ -1,6 +1,7 @@
 """What may have happened unseen before an event: internal rows, requests performed early, acts at the panel.
 
-Each internal row fires at most once for the same names between two events; those that explain an observed
+Each internal row fires at most once for the same names between two events, for unseen names any number of
+times; those that explain an observed
 state only are left out where an answer is to be explained, and nothing more is explained where a state agrees
 with an observation already: what else may have happened may as well happen after it. While somebody at the
 panel holds control, what the panel can change is not known.
@@ -18,10 +19,10 @@ from mmsverify.concrete.belief.constraints import Conflict, Constraints
 from mmsverify.concrete.belief.field import Field, History, Move, move
 from mmsverify.concrete.belief.goal import Goal
 from mmsverify.concrete.belief.horizon import Reach, reach
-from mmsverify.concrete.belief.partial import DECIDED, OTHER, Key, Partial
+from mmsverify.concrete.belief.partial import DECIDED, Key, Partial
 from mmsverify.concrete.belief.ready import Rows
 from mmsverify.concrete.belief.several import changed, distinct
-from mmsverify.concrete.belief.values import NO, YES, Env, within
+from mmsverify.concrete.belief.values import ABSENT, NO, YES, Env, within
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Row
 from mmsverify.model.sorts import BOOL, ElementSort
@@ -33,7 +34,7 @@ Reached = tuple[Partial, History]
 PANEL = "panel"
 PERFORMED = "performed"
 CONTROL: Key = ("local_control", ())
-LARGEST = 4000
+LARGEST = 1000
 LARGEST_MEMO = 20000
 MOST_ROUNDS = 6
 
@@ -236,16 +237,19 @@ class Unseen:
             yield Move((PANEL, ()), (), control, world.mask(self._panel), stands=stands)
 
     def _bindings(self, row: Row) -> dict[tuple[str, ...], list[dict[str, Any]]]:
-        """Names for parameters that are elements, both values for Booleans; any other choice stays open."""
+        """Names for parameters that are elements, both values for Booleans; any other choice stays open.
+
+        An optional one may not be given; that is left open with its value.
+        """
         ranged: list[tuple[str, tuple[Any, ...]]] = []
         for parameter in row.parameters:
             if isinstance(parameter, SetOf):
                 continue
+            absent = (ABSENT,) if parameter.name in row.on.optional else ()
             if isinstance(parameter.of, ElementSort):
-                known = self.constraints.world.names[parameter.of.name]
-                ranged.append((parameter.name, tuple(n for n in known if n != OTHER)))
+                ranged.append((parameter.name, (*self.constraints.world.names[parameter.of.name], *absent)))
             elif parameter.of is BOOL:
-                ranged.append((parameter.name, (NO, YES)))
+                ranged.append((parameter.name, (NO, YES, *absent)))
         found: dict[tuple[str, ...], list[dict[str, Any]]] = {}
         for values in product(*(values for _, values in ranged)):
             env = dict(zip((name for name, _ in ranged), values, strict=True))

@@ -26,7 +26,8 @@ LARGEST_MEMO = 20_000
 class Write:
     """One update of one cell, where a condition holds.
 
-    ``vague``: the cell stands for many names, of which only one is meant.
+    ``vague``: it may not be made for all that its condition says. The cell stands for many names, of which
+    only one is meant; or the condition speaks of unseen names, of which there may be none.
     """
 
     key: Key
@@ -39,8 +40,8 @@ class Write:
 class Ready:
     """A row in an environment: its conjuncts, its updates, and the bits of the cells that they touch.
 
-    ``needs`` are the cells that each conjunct reads, ``takes`` those that the updates read. ``unseen``: the
-    responder chooses a name that has not been seen; what is known of all of them need not be its own.
+    ``needs`` are the cells that each conjunct reads, ``takes`` those that the updates read. ``unseen``: one
+    of the names has not been seen; what is known of all of them need not be its own.
     """
 
     row: Row
@@ -95,21 +96,21 @@ class Rows:
         for update in updates:
             takes |= update.where.reads | update.value.reads
             writes |= self.ground.world.spots[update.key]
-        chosen = (c.name for c in row.choices if isinstance(c, Ref) and isinstance(c.of, ElementSort))
-        unseen = any(env.get(name) == OTHER for name in chosen)
+        unseen = OTHER in [given for given in env.values() if isinstance(given, str)]
         return Ready(row, env, guard, updates, tuple(f.reads for f in guard), takes, writes, unseen)
 
     def _writes(self, assign: Assign, env: Env) -> Iterator[Write]:
-        bound = {ref.name for ref in assign.bound}
-        vague = any(
-            a.name not in bound and env.get(a.name) == OTHER for a in assign.args if isinstance(a, Ref)
-        )
-        for names in self.ground.world.combinations([ref.of for ref in assign.bound]):
-            inner = {**env, **dict(zip((ref.name for ref in assign.bound), names, strict=True))}
+        names = {ref.name for ref in assign.bound}
+        targets = {arg.name for arg in assign.args if isinstance(arg, Ref)}
+        one = any(env.get(name) == OTHER for name in targets - names)
+        for chosen in self.ground.world.combinations([ref.of for ref in assign.bound]):
+            over = dict(zip((ref.name for ref in assign.bound), chosen, strict=True))
+            inner = {**env, **over}
             where = self.ground.formula(assign.where, inner)
             if isinstance(where, Fixed) and where.value == NO:
                 continue
             args = tuple([element(arg, inner) for arg in assign.args])
             value = self.ground.value(assign.value, inner)
             if ABSENT not in args and value is not None:
-                yield Write((assign.variable, args), where, value, vague)
+                perhaps = any(name == OTHER and ref not in targets for ref, name in over.items())
+                yield Write((assign.variable, args), where, value, one or perhaps)
