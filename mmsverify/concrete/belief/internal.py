@@ -34,7 +34,7 @@ Reached = tuple[Partial, History]
 PANEL = "panel"
 PERFORMED = "performed"
 CONTROL: Key = ("local_control", ())
-LARGEST = 1000
+LARGEST = 300
 LARGEST_MEMO = 20000
 MOST_ROUNDS = 6
 
