@@ -21,6 +21,7 @@ from mmsverify.model.rows import Clause
 Listed = frozenset[str]
 UNRECOGNIZED = ("confirmed-request", 1)
 NEST = 2
+THIRD_PARTY = "tpy"
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,7 +85,7 @@ class Conformance:
         detail = body.get("initResponseDetail", {})
         if "additionalSupportedCalled" not in detail:
             return
-        for breach in (*_missing(detail), *_parameters(request, body)):
+        for breach in (*_missing(detail), *_parameters(request, body), *_third_party(request, body)):
             key = breach.rule, breach.words["missing"]
             if key not in self._told:
                 self._told.add(key)
@@ -120,6 +121,16 @@ def _parameters(request: Mapping[str, Any] | None, body: Mapping[str, Any]) -> I
         missing.append(f"NEST = {NEST}")
     if missing:
         yield Breach("conformance.parameters", {"missing": ", ".join(missing)})
+
+
+def _third_party(request: Mapping[str, Any] | None, body: Mapping[str, Any]) -> Iterator[Breach]:
+    """With secondary storage a robot should agree to TPY, where that was proposed."""
+    listed = bits("ServiceSupportOptions", body["initResponseDetail"]["servicesSupportedCalled"])
+    if request is None or not listed >= SECONDARY_STORAGE:
+        return
+    proposed = _bits(request, "initRequestDetail", "proposedParameterCBB")
+    if THIRD_PARTY in proposed - _bits(body, "initResponseDetail", "negotiatedParameterCBB"):
+        yield Breach("conformance.third-party", {"missing": THIRD_PARTY})
 
 
 def _bits(body: Mapping[str, Any], detail: str, name: str) -> Listed:

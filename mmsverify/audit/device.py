@@ -13,6 +13,7 @@ from mmsverify.audit.acquaintance import Acquaintance
 from mmsverify.audit.conformance import Conformance
 from mmsverify.audit.exchange import Asked, Association
 from mmsverify.audit.notifications import Notifications
+from mmsverify.audit.objects import Objects
 from mmsverify.audit.performing import Performing
 from mmsverify.audit.rules import Breach
 from mmsverify.audit.showing import Showing
@@ -49,6 +50,7 @@ class Device:
         self._transfers = Transfers(belief, self._telling)
         self._notifications = Notifications(belief)
         self._conformance = Conformance()
+        self._objects = Objects()
 
     # Links.
 
@@ -170,6 +172,20 @@ class Device:
         agreed = association.negotiated is not None and association.negotiated.robot
         yield from contents.judge(pdu, asked.pdu, agreed=agreed)
         yield from self._conformance.rejected(association.negotiated, asked.pdu, pdu)
+        told = list(self._replayed(association, asked, pdu, message))
+        yield from told
+        if pdu.kind == "confirmed-ResponsePDU":
+            fixed = self._objects.answered(asked.pdu, pdu)
+            yield from self._telling.withhold(message, fixed) if told else fixed
+        # A state that comes with the answer of a service is that of its decision, which may be long ago.
+        undisturbed = self.belief.undisturbed(asked.slot)
+        if undisturbed and pdu.kind == "confirmed-ResponsePDU" and asked.pdu.service == "vMDReset":
+            yield from self._showing.status(pdu.body, pdu.detail, message)
+        if pdu.kind == "confirmed-ResponsePDU" and asked.pdu.service == "defineEventEnrollment":
+            self._notifications.enrolled(asked.pdu)
+
+    def _replayed(self, association: Association, asked: Asked, pdu: Pdu, message: TraceMessage) -> Told:
+        """What the answer does or shows in the model."""
         call = self._performing.call(asked)
         if asked.pdu.service in UPLOADING:
             yield from self._transfers.uploaded(association.name, asked, pdu, message)
@@ -181,12 +197,6 @@ class Device:
             yield from self._showing.answered(asked, pdu, message)
         else:
             yield from self._showing.refused(asked, pdu, message)
-        # A state that comes with the answer of a service is that of its decision, which may be long ago.
-        undisturbed = self.belief.undisturbed(asked.slot)
-        if undisturbed and pdu.kind == "confirmed-ResponsePDU" and asked.pdu.service == "vMDReset":
-            yield from self._showing.status(pdu.body, pdu.detail, message)
-        if pdu.kind == "confirmed-ResponsePDU" and asked.pdu.service == "defineEventEnrollment":
-            self._notifications.enrolled(asked.pdu)
 
     def _unconfirmed(self, association: Association, side: str, pdu: Pdu, message: TraceMessage) -> Told:
         if not self._is_robot(association):
@@ -201,5 +211,5 @@ class Device:
             case "informationReport":
                 yield from self._showing.values(pdu, pdu, message)
             case "eventNotification":
-                yield from self._showing.notified(pdu)
+                yield from self._objects.notified(pdu)
                 yield from self._notifications.notified(pdu)

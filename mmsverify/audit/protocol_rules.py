@@ -208,6 +208,13 @@ PROTOCOL = (
         "R-9.2.2.1-1",
         "R-9.2.3.1-1",
     ),
+    # "Should": nothing forbids a robot to do without.
+    rule(
+        "conformance.third-party",
+        "the robot loads from secondary storage, but does not agree to {missing}",
+        "R-9.2.2.2.2.2-2",
+        severity="note",
+    ),
     rule("conformance.parameters", "the robot does not agree to {missing}", "R-9.2.2.3-1"),
     rule(
         "conformance.rejected",

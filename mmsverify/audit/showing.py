@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from mmsverify.audit import objects, robot, variables
+from mmsverify.audit import robot, variables
 from mmsverify.audit.acquaintance import Acquaintance
 from mmsverify.audit.exchange import Asked
 from mmsverify.audit.rules import Breach
@@ -25,11 +25,9 @@ class Showing:
         self._telling = telling
         self._acquaintance = acquaintance
         self._variables = variables.Variables()
-        self._objects = objects.Objects()
 
     def answered(self, asked: Asked, pdu: Pdu, message: TraceMessage) -> Iterator[Finding | Breach]:
         """The positive answer to a service that changes nothing in the model."""
-        yield from self._objects.answered(asked.pdu, pdu)
         match asked.pdu.service:
             case "status":
                 yield from self.status(pdu.body, pdu.detail, message, asked.slot)
@@ -59,10 +57,6 @@ class Showing:
             yield from self._telling.outcome(message, str(asked.pdu.service), MINUS, outcome, (asked.index,))
         else:
             self._belief.drop(asked.slot)
-
-    def notified(self, pdu: Pdu) -> Iterator[Breach]:
-        """What EventNotification shows of the standardized objects."""
-        yield from self._objects.notified(pdu)
 
     def status(
         self, body: Mapping[str, Any], detail: Any, message: TraceMessage, slot: str | None = None

@@ -6,7 +6,7 @@ again with every poll.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -78,6 +78,13 @@ class Telling:
             expected=blame.expected, observed=answer or "shown", before=blame.before,
             related=tuple(sorted(({*related, *writers}) - {message.index})), readings=blame.clause.readings,
         )  # fmt: skip
+
+    def withhold(self, message: TraceMessage, breaches: Iterable[Breach]) -> tuple[Breach, ...]:
+        """Nothing: the model has told of the message already, and the next poll need not add to it."""
+        for breach in breaches:
+            rule = RULES[breach.rule]
+            self._repeated(message, (rule.id, rule.says.format(**breach.words)), told_again=False)
+        return ()
 
     def breach(self, message: TraceMessage, breach: Breach) -> Iterator[Finding]:
         """The breach of a rule, as a finding; none where it has just been told."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -44,6 +45,14 @@ def say(made: Cell, sender: str, kind: str, invoke_id: int | None = None) -> Non
 
 def places(findings: list[Finding]) -> list[tuple[int | None, str, str]]:
     return [(finding.index, finding.rule, finding.severity) for finding in findings]
+
+
+def domain(name: str, *, sharable: bool) -> dict[str, Any]:
+    """The attributes of a standardized domain that its own program uses."""
+    return {
+        "listOfCapabilities": [], "state": 3, "mmsDeletable": False, "sharable": sharable,
+        "listOfProgramInvocations": [name], "uploadInProgress": 0,
+    }  # fmt: skip
 
 
 def stopped(made: Cell) -> None:
@@ -159,9 +168,15 @@ def test_a_value_that_every_poll_shows_is_told_once(listen: Listen, cell: Cell) 
 
 def test_an_object_that_every_poll_shows_is_told_once(listen: Listen, cell: Cell) -> None:
     for _ in range(3):
-        cell.domain("R_ARM", "in-use", [])
+        cell.call("getDomainAttributes", "R_ARM", gives=domain("R_ARM", sharable=False))
     (found,) = listen(cell)
-    assert (found.index, found.rule, found.clauses[0]) == (4, "object.member", "R-8.2.1-4")
+    assert (found.index, found.rule, found.clauses[0]) == (4, "object.attribute", "R-8.2.1-3")
+
+
+def test_what_the_model_has_told_of_a_poll_is_not_told_again_of_the_next(listen: Listen, cell: Cell) -> None:
+    for _ in range(3):
+        cell.domain("R_ARM", "in-use", [])
+    assert places(listen(cell)) == [(4, "domain.in-use-unbound", "error")]
 
 
 @pytest.mark.exercises("R-8.5.3.1-1")
@@ -169,3 +184,26 @@ def test_what_a_client_writes_is_judged_when_the_robot_accepts_it(listen: Listen
     body = {"variableAccessSpecification": pdus.variables(pdus.vmd("R_SF")), "listOfData": [("integer", 1)]}
     cell.call("write", body, gives=[("success", None)])
     assert places(listen(cell)) == [(4, "variable.written", "error")]
+
+
+@pytest.mark.exercises("R-8.2.3-2")
+def test_a_domain_that_no_profile_names_is_not_deletable_either(listen: Listen, cell: Cell) -> None:
+    cell.call("deleteDomain", "R_SAFE")
+    assert places(listen(cell)) == [(4, "object.deleted", "error")]
+
+
+@pytest.mark.exercises("R-8.2.1-3")
+def test_what_the_model_has_told_of_a_message_is_not_told_twice(listen: Listen, cell: Cell) -> None:
+    cell.call("deleteDomain", "R_ARM")
+    assert places(listen(cell)) == [(4, "delete-domain.not-deletable", "error")]
+
+
+@pytest.mark.exercises("R-8.2.1-3", "R-8.2.2-2")
+@pytest.mark.parametrize(("name", "field"), [("R_ARM", "sharable"), ("R_CAL", "mmsDeletable")])
+def test_the_attributes_of_a_standardized_domain_are_judged(
+    listen: Listen, cell: Cell, name: str, field: str
+) -> None:
+    gives = domain(name, sharable=name == "R_ARM")
+    cell.call("getDomainAttributes", name, gives=gives)
+    cell.call("getDomainAttributes", name, gives=gives | {field: not gives[field]})
+    assert places(listen(cell)) == [(6, "object.attribute", "error")]

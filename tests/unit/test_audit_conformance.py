@@ -103,6 +103,27 @@ def test_a_robot_agrees_to_the_parameters_of_the_base_class(
     assert list(Conformance().initiated(None, answer)) == []
 
 
+@pytest.mark.exercises("R-9.2.2.2.2.2-2")
+@pytest.mark.parametrize(
+    ("loading", "proposed", "agreed", "said"),
+    [
+        (SECONDARY_STORAGE, 7, 7, 0),
+        (SECONDARY_STORAGE, 7, 6, 1),
+        (SECONDARY_STORAGE, 6, 6, 0),
+        (LOADING, 7, 6, 0),
+    ],
+)
+def test_with_secondary_storage_a_robot_should_agree_to_third_parties(
+    loading: Sequence[str], proposed: int, agreed: int, said: int
+) -> None:
+    services = [name for name in WHOLE if name not in LOADING]
+    ask = initiation("Request", (), ()).body
+    answer = initiation("Response", [*services, *loading], ("select",)).body
+    ask["initRequestDetail"]["proposedParameterCBB"] = "1" * proposed
+    answer["initResponseDetail"]["negotiatedParameterCBB"] = "1" * agreed
+    assert rules(list(Conformance().initiated(ask, answer))) == ["conformance.third-party"] * said
+
+
 def rejection(service: str, reason: Any, *, listed: bool = False) -> list[Breach]:
     agreed = negotiated(initiation("Response", WHOLE, ("select",)).body, None) if listed else None
     pdu = Pdu("rejectPDU", 1, body={"rejectReason": reason})
