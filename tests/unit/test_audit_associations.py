@@ -207,3 +207,30 @@ def test_the_attributes_of_a_standardized_domain_are_judged(
     cell.call("getDomainAttributes", name, gives=gives)
     cell.call("getDomainAttributes", name, gives=gives | {field: not gives[field]})
     assert places(listen(cell)) == [(6, "object.attribute", "error")]
+
+
+@pytest.mark.exercises("R-7.4.4.3-2", "R-7.4.4.1.1.2-1")
+def test_a_list_of_controlled_ones_comes_with_the_controlling_one(listen: Listen, cell: Cell) -> None:
+    asked = cell.ask("select", {"controlled": ["R_ARM"]})
+    cell.refuse(asked, ("service", "object-state-conflict"))
+    assert ("select.controlled-alone", "error") in [
+        (f.rule, f.severity) for f in listen(cell) if f.index == 3
+    ]
+
+
+@pytest.mark.exercises("R-5.3.1.3.2.1-1")
+def test_what_nothing_has_shown_since_robot_idle_cannot_act(listen: Listen, cell: Cell) -> None:
+    cell.status("robot-idle")
+    cell.call("kill", {"programInvocationName": "GHOST"})
+    assert "program.never-shown" in [found.rule for found in listen(cell) if found.index == 6]
+
+
+@pytest.mark.exercises("R-8.7.1-1")
+def test_an_event_without_its_cause_is_unfounded(listen: Listen, cell: Cell) -> None:
+    cell.status("robot-idle")
+    cell.call("defineEventEnrollment", pdus.enrollment("E", "R_RVS", "R_STC"))
+    cell.status("robot-idle")
+    idle = pdus.robot_status("robot-idle", pdus.ALL_WELL, ("noneSelected", None))
+    told = pdus.notification("E", "R_RVS", "R_STC", ("status", pdus.status(0, 0)), idle)
+    cell.tell("eventNotification", told)
+    assert places(listen(cell)) == [(9, "event.unfounded", "error")]

@@ -32,6 +32,14 @@ def rules(breaches: list[Breach]) -> list[str]:
     return [breach.rule for breach in breaches]
 
 
+def test_no_service_of_the_base_class_is_forgotten() -> None:
+    assert {
+        "identify", "conclude", "cancel", "status", "getDomainAttributes", "deleteDomain",
+        "createProgramInvocation", "deleteProgramInvocation", "start", "stop", "resume", "reset",
+        "getProgramInvocationAttributes", "read", "write", "select",
+    } == REQUIRED  # fmt: skip
+
+
 def test_a_robot_that_lists_the_base_class_lacks_nothing() -> None:
     assert initiated(WHOLE) == []
 

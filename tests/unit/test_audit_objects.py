@@ -9,6 +9,7 @@ import pytest
 
 from mmsverify.audit.objects import OBJECTS, Fixed, Objects
 from mmsverify.audit.rules import RULES, Breach
+from mmsverify.audit.variables import VARIABLES
 from mmsverify.formats.mms import Pdu, decode, encode
 from mmsverify.samples import pdus
 from mmsverify.samples.pdus import of_domain, request, response, vmd
@@ -83,6 +84,9 @@ def test_another_value_of_a_fixed_attribute_breaks_its_clause(key: str) -> None:
     other = not fixed.value if isinstance(fixed.value, bool) else OTHER[fixed.field]
     (breach,) = judged(fixed.service, asked, given | {fixed.field: other})
     assert breach.clause == fixed.clause
+    assert breach.rule == (
+        "object.initial" if fixed.initial else "object.member" if fixed.member else "object.attribute"
+    )
     assert RULES[breach.rule].severity == ("note" if fixed.initial else "error")
     assert RULES[breach.rule].says.format(**breach.words)
 
@@ -246,3 +250,65 @@ def test_a_standardized_event_has_the_normal_severity() -> None:
 def test_every_entry_says_what_it_rests_on() -> None:
     assert [key for key, fixed in OBJECTS.items() if not fixed.clause.ids] == []
     assert replace(OBJECTS["domain R_ARM getDomainAttributes sharable"], name="X").object == "domain X"
+
+
+# The table itself: written down by hand, so that nothing falls out of it unseen.
+
+DOMAIN_FIELDS = {"mmsDeletable", "sharable"}
+CONDITION_FIELDS = {"mmsDeletable", "class", "severity", "priority", "alarmSummaryReports", "enabled"}
+ACTION_FIELDS = {"mmsDeletable", "listOfModifier", "confirmedServiceRequest"}
+FIELDS = {
+    "domain R_ARM": DOMAIN_FIELDS | {"listOfProgramInvocations"},
+    "domain R_CAL": DOMAIN_FIELDS | {"listOfProgramInvocations"},
+    "domain R_SAFE": DOMAIN_FIELDS,
+    "program invocation R_ARM": {"listOfDomainNames"},
+    "program invocation R_CAL": {"listOfDomainNames"},
+    "semaphore R_CTRL": {"mmsDeletable", "class", "numberOfTokens"},
+    **{f"event condition {name}": CONDITION_FIELDS for name in ("R_RVS", "R_SIV", "R_RLC", "R_ARM")},
+    **{f"event action {name}": ACTION_FIELDS for name in ("R_STC", "R_ARM")},
+    **{f"type {name}": {"mmsDeletable"} for name in ("R_PIS", "R_OIS", "R_PSE", "R_EEF")},
+}
+
+
+def test_no_fixed_attribute_is_forgotten() -> None:
+    listed: dict[str, set[str]] = {}
+    for fixed in OBJECTS.values():
+        if fixed.kind != "variable":
+            listed.setdefault(fixed.object, set()).add(fixed.field)
+    assert listed == FIELDS
+    assert {fixed.name for fixed in OBJECTS.values() if fixed.kind == "variable"} == set(VARIABLES)
+    assert {fixed.name for fixed in OBJECTS.values() if fixed.service == "eventNotification"} == {
+        "R_RVS", "R_SIV", "R_RLC", "R_ARM",
+    }  # fmt: skip
+
+
+@pytest.mark.exercises("R-8.4.1-1", "R-8.4.2-1", "R-8.4.3-1", "R-8.4.4-1")
+@pytest.mark.parametrize(
+    ("name", "parts"),
+    [
+        ("R_PIS", (3, SINGLE)),
+        ("R_OIS", (4, SINGLE)),
+        ("R_PSE", [(3, SINGLE), (4, SINGLE)]),
+        (
+            "R_EEF",
+            [("objId", None), ("visible-string", 80), [(3, SINGLE), (4, SINGLE)], ("visible-string", 512)],
+        ),
+    ],
+)
+def test_each_standardized_type_is_that_of_the_text(name: str, parts: Any) -> None:
+    good, bad = (
+        {"mmsDeletable": False, "typeSpecification": it} for it in (described(parts), ("bit-string", 8))
+    )
+    assert judged("getNamedTypeAttributes", vmd(name), good) == []
+    assert rules(judged("getNamedTypeAttributes", vmd(name), bad)) == ["object.type"]
+
+
+def described(parts: Any) -> tuple[str, Any]:
+    """A type as a text tells it: a list of components, a number of elements, or a type specification."""
+    if isinstance(parts, list):
+        inner = [{"componentType": described(part)} for part in parts]
+        return "structure", {"packed": False, "components": inner}
+    first, second = parts
+    if isinstance(first, int):
+        return "array", {"packed": False, "numberOfElements": first, "elementType": second}
+    return parts[0], parts[1]
