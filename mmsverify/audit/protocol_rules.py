@@ -207,6 +207,8 @@ PROTOCOL = (
         "the robot does not list what the base class requires: {missing}",
         "R-9.2.2.1-1",
         "R-9.2.3.1-1",
+        "RP-24",
+        severity="warning",
     ),
     # "Should": nothing forbids a robot to do without.
     rule(
@@ -215,7 +217,13 @@ PROTOCOL = (
         "R-9.2.2.2.2.2-2",
         severity="note",
     ),
-    rule("conformance.parameters", "the robot does not agree to {missing}", "R-9.2.2.3-1"),
+    rule(
+        "conformance.parameters",
+        "the robot does not agree to {missing}",
+        "R-9.2.2.3-1",
+        "RP-24",
+        severity="warning",
+    ),
     rule(
         "conformance.rejected",
         "the robot rejects {service} as unrecognized, which the base class requires",

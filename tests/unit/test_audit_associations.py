@@ -157,7 +157,7 @@ def test_a_robot_without_the_base_class_is_told_so_at_initiate(listen: Listen) -
     for _ in range(2):
         made.open({"client": (), "server": ("status", "identify")}, ("select",), 1)
         made.close()
-    assert places(listen(made)) == [(2, "conformance.services", "error")]
+    assert places(listen(made)) == [(2, "conformance.services", "warning")]
 
 
 def test_a_value_that_every_poll_shows_is_told_once(listen: Listen, cell: Cell) -> None:
