@@ -105,7 +105,8 @@ def map_cells(expr: Expr, change: Callable[[Cell], Expr], of: frozenset[str] | N
     if of is not None and of.isdisjoint(variables_of(expr)):
         return expr
     inner = rebuilt(expr, lambda part: map_cells(part, change, of))
-    return change(inner) if isinstance(inner, Cell) else inner
+    # Asked of ``expr``: what is left of a connective may be a cell, too, and that one is changed already.
+    return change(inner) if isinstance(expr, Cell) and isinstance(inner, Cell) else inner
 
 
 def primed(expr: Expr) -> Expr:
