@@ -180,7 +180,10 @@ class Belief:
     def respond(
         self, slot: str, service: str, bindings: Mapping[str, Any], answer: str, *, local: bool = False
     ) -> Outcome:
-        """The responder answers; ``local``: a result(-) names a local reason, which needs no explanation."""
+        """The responder answers.
+
+        ``local``: a result(-) names a local reason, which needs no explanation by the state, nor tells of it.
+        """
         env = self.environment("response", service, bindings)
         self._outstanding.pop(slot, None)
         self._remember(slot)
@@ -189,6 +192,8 @@ class Belief:
         ready = self.unseen.before(self.states, "answer", self._others(slot), goal)
         earlier = self.states
         after, refusals = self._answered(goal, ready, slot, answer)
+        if local and answer == MINUS:
+            after += forced(goal, _undecided(ready, slot), self.constraints)
         if after:
             made = {assign.variable: assign.clauses for row in rows for assign in row.assigns}
             return replace(self._become(after, earlier), clauses=made)
@@ -341,3 +346,8 @@ def _given(given: Any, sort: Sort | None = None) -> Any:
     if isinstance(given, int | Enumeration):
         return exactly(given)
     return given if isinstance(given, str) else frozenset(given)
+
+
+def _undecided(states: Sequence[Partial], slot: str) -> list[Partial]:
+    """The states in which the responder has not accepted the request already, without marks of a decision."""
+    return [undecided(state, slot) for state in states if decided(state, slot) != PLUS]

@@ -65,11 +65,26 @@ def _names(env: Env) -> Iterator[str]:
 
 
 def learned_anew(goal: Goal, states: Sequence[Partial], constraints: Constraints) -> list[Partial]:
-    """The states if a message that contradicts them is true: what it reads is forgotten, then learned."""
+    """The states if a message that contradicts them is true: what it reads is forgotten, then learned.
+
+    What else was believed of the names in it is forgotten, too: the same message may show that next.
+    """
     learned: list[Partial] = []
+    names = set(_names(goal.env))
     doubted = frozenset[str]().union(*(row.reads for row in goal.rows)) - rigid(constraints.world.model)
     for state in states[:MOST_DOUBTED]:
-        blank = constraints.everywhere(state.forget(doubted))
+        blank = constraints.everywhere(_forgotten(state.forget(doubted), names))
         if not isinstance(blank, Conflict):
             learned += [after for ways in goal.ways for after in take(ways, blank, constraints)[0]]
     return learned
+
+
+def _forgotten(state: Partial, names: set[str]) -> Partial:
+    """The state with nothing known of these names but what never changes."""
+    lasting = rigid(state.world.model)
+
+    def doubted(key: Key) -> bool:
+        about = state.world.fact_of(key).env.values() if key[0] == UNSEEN else key[1]
+        return key[0] not in lasting and any(name in names for name in about if isinstance(name, str))
+
+    return state.forget_cells(doubted)
