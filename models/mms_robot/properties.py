@@ -75,7 +75,8 @@ class Properties(Vocabulary):
         "R-6.3.6-7", for_all(p)(calibrates[p] >> (predefined[p] & (predefined_control[p] == Control.NORMAL)))
     )
     arm_predefined = Assume("R-8.3.1-6", for_all(p)(standard_arm[p] >> (predefined[p] & (predefined_control[p] == Control.CONTROLLED)
-                                                                     & ~predefined_deletable[p] & predefined_reusable[p])), "R-8.3.1-3", "R-8.3.1-4")  # fmt: skip
+                                                                     & ~predefined_deletable[p] & predefined_reusable[p] & predefined_arm[p])),
+                           "R-8.3.1-1", "R-8.3.1-3", "R-8.3.1-4")  # fmt: skip
 
     # Controlling and controlled program invocations (6.3.1, 6.3.2).
     one_controller = Always("R-6.3.1-3", for_all(a, b, c)((controls[a, c] & controls[b, c]) >> (a == b)), "R-7.3.3.1-4",
@@ -207,6 +208,7 @@ class Properties(Vocabulary):
         "R-6.3.6-7", for_all(p)(calibrates[p] >> (control[p] == Control.NORMAL)), "R-8.3.2-3"
     )
     arm_is_controlled = Always("R-8.3.1-6", for_all(p)(standard_arm[p] >> (control[p] == Control.CONTROLLED)))
+    arm_moves_arm = Always("R-8.3.1-1", for_all(p)(standard_arm[p] >> arm[p]), says="R_ARM is bound to the domain of the robot arm")
     arm_remains = Always(
         "R-8.3.1-3", for_all(p)((standard_arm[p] | calibrates[p]) >> (exists[p] & ~deletable[p])), "R-8.3.2-2"
     )

@@ -73,13 +73,14 @@ def attributes(
 ) -> dict[tuple[str, tuple[str, ...]], Any]:
     """What is fixed about one program invocation; ``entry`` is its place among the predefined ones, if it has one."""
     given = entry or {}
+    standard_arm = name == "R_ARM" and entry is not None
     return {
         ("predefined", (name,)): entry is not None,
         ("predefined_control", (name,)): Control(given.get("control", "NORMAL")),
         ("predefined_deletable", (name,)): bool(given.get("deletable", True)),
         ("predefined_reusable", (name,)): bool(given.get("reusable", True)),
-        ("predefined_arm", (name,)): name in profile.get("arms", ["R_ARM"]),
+        ("predefined_arm", (name,)): name in profile.get("arms", ["R_ARM"]) or standard_arm,
         ("selected_at_power_on", (name,)): name == profile.get("selected_at_power_on", ""),
         ("calibrates", (name,)): name == "R_CAL" and entry is not None,
-        ("standard_arm", (name,)): name == "R_ARM" and entry is not None,
+        ("standard_arm", (name,)): standard_arm,
     }
