@@ -13,6 +13,7 @@ from mmsverify.audit.device import Device
 from mmsverify.audit.telling import Place
 from mmsverify.concrete.belief import Belief
 from mmsverify.concrete.belief.coverage import Coverage
+from mmsverify.concrete.belief.partial import OTHER
 from mmsverify.errors import DecodeError, UsageError
 from mmsverify.formats import mms
 from mmsverify.formats.mcap import McapTrace
@@ -62,6 +63,8 @@ class Replay:
             domains = {domain for entry in predefined for domain in entry.get("domains", ())}
             sizes = {"PI": len(predefined), "Client": 0, "Request": 0, "Domain": len(domains)}
             _, facts = scenario(sizes, self.profile)
+            # R_CAL is a predefined name (8.3.2): of what the profile does not predefine nothing calibrates.
+            facts = {**facts, ("calibrates", (OTHER,)): False}
             base = frozenset(name for owner, name in self._base_only if owner == vmd)
             belief = Belief(self.model, facts, self._proved())
             self.coverage.append(belief.coverage)

@@ -95,17 +95,25 @@ def plain_name(object_name: tuple[str, Any]) -> str:
     return f"{name['domainId']}/{name['itemId']}" if scope == "domain-specific" else str(name)
 
 
+SHOWN_BITS = ("shown_interlocks", "shown_power", "shown_calibrated", "shown_local")
+"""What the bits of the robot-specific status show, in their order (7.3.2.1.2)."""
+
+
 def shown_by_status(body: Mapping[str, Any], detail: Mapping[str, Any] | None) -> Call | None:
     """What Status, UnsolicitedStatus and the answer to VMD Reset show."""
     logical = words.word(words.LOGICAL, body["vmdLogicalStatus"])
     physical = words.word(words.PHYSICAL, body["vmdPhysicalStatus"])
     if logical is None or physical is None:
         return None
-    bindings: dict[str, Any] = {"shown_logical": logical, "shown_physical": physical, "detailed": False,
-                                "shown_robot": None, "selected_is": None, "shown_local": None}  # fmt: skip
+    bindings: dict[str, Any] = {
+        "shown_logical": logical,
+        "shown_physical": physical,
+        "detailed": False,
+        **dict.fromkeys(("shown_robot", "selected_is", *SHOWN_BITS)),
+    }
     if detail is None:
         return Call("status", bindings)
-    bindings["shown_local"] = _bit(detail, 3)
+    bindings |= {name: _bit(detail, place) for place, name in enumerate(SHOWN_BITS)}
     state = words.word(words.ROBOT_STATE, detail["robotVMDState"])
     if state is not None:
         kind, name = detail["selectedProgramInvocation"]
@@ -148,6 +156,8 @@ def _control(detail: Mapping[str, Any] | None) -> dict[str, Any]:
         "controller_is": None,
         "shown_mode": None,
         "shown_count": 0,
+        "shown_error": 0 if detail is None else detail["errorCode"],
+        "shown_location": None,
     }
     if kind == "controlling":
         mode, count = content["runningMode"]
@@ -155,6 +165,7 @@ def _control(detail: Mapping[str, Any] | None) -> dict[str, Any]:
             "listed": frozenset(content["controlledPI"]),
             "shown_mode": words.MODE[mode],
             "shown_count": count or 0,
+            "shown_location": bool(content["programLocation"]) if "programLocation" in content else None,
         }
     elif kind == "controlled":
         shown["controller_is"] = content[1]

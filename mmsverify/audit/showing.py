@@ -75,10 +75,13 @@ class Showing:
         """The values of a Read, or of an InformationReport, which is both request and response."""
         values = list(robot.read_values(request, response))
         yield from self._variables.judge(values, message.index)
-        for name, data in values:
-            call = variables.shows(name, data)
-            if call is not None:
-                yield from self._shown(message, "read", call, slot)
+        calls = [call for name, data in values if (call := variables.shows(name, data)) is not None]
+        for call in calls:
+            self._acquaintance.meet(call)
+            yield from self._shown(message, "read", call, slot)
+        both = variables.together(calls)
+        if both is not None:
+            yield from self._shown(message, "read", both, None)
         if slot is not None:
             self._belief.drop(slot)
 

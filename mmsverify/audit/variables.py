@@ -10,6 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Literal
 
+from mmsverify.audit import words
 from mmsverify.audit.robot import Call, plain_name
 from mmsverify.audit.rules import Breach
 from mmsverify.audit.shapes import (
@@ -118,11 +119,53 @@ def standard(name: str) -> Variable | None:
     return variable
 
 
+SHOWN: Mapping[str, str] = {
+    "R_VPWR": "shown_power",
+    "R_VCAL": "shown_calibrated",
+    "R_VLOCAL": "shown_local",
+    "R_VSAFEV": "shown_interlocks",
+    "R_DPWR": "shown_power",
+    "R_DLOCAL": "shown_local",
+}
+"""The Boolean variables that show the model's state, each with the name of what it shows."""
+
+
 def shows(name: str, data: Value) -> Call | None:
     """What a standardized variable shows of the model's state."""
-    if name == "R_VLOCAL" and data[0] == "boolean":
-        return Call("R_VLOCAL", {"shown_local": data[1]})
+    if standard(name) is None:
+        return None
+    domain, _, item = name.rpartition("/")
+    kind, content = data
+    of = {"device": domain} if domain else {}
+    if item in SHOWN and kind == "boolean":
+        return Call(item, {**of, SHOWN[item]: content})
+    if item == "R_DCAL" and kind in ("integer", "unsigned"):
+        calibration = words.word(words.CALIBRATION, content)
+        return Call(item, {**of, "shown_calibration": calibration}) if calibration else None
     return None
+
+
+def together(calls: Sequence[Call]) -> Call | None:
+    """What the values of one Read say of the VMD and of its devices; ``None`` where they say not both."""
+    of_vmd = [call.bindings for call in calls if "device" not in call.bindings]
+    of_devices = [call for call in calls if "device" in call.bindings]
+    bindings: dict[str, Any] = dict.fromkeys(("shown_power", "shown_calibrated", "shown_local"))
+    for shown in of_vmd:
+        bindings |= shown
+    if not of_devices or not of_vmd:
+        return None
+    return Call("readTogether", {
+        **bindings,
+        "shown_powered": _devices(of_devices, "R_DPWR", (True,)),
+        "shown_uncalibrated": _devices(of_devices, "R_DCAL", words.CALIBRATION[1:]),
+        "shown_held": _devices(of_devices, "R_DLOCAL", (True,)),
+    })  # fmt: skip
+
+
+def _devices(calls: Sequence[Call], variable: str, values: Sequence[Any]) -> frozenset[str]:
+    """The devices of which that variable shows one of these values."""
+    of = (call.bindings for call in calls if call.service == variable)
+    return frozenset(given["device"] for given in of if not {*given.values()}.isdisjoint(values))
 
 
 def _breach(name: str, variable: Variable, misfit: Misfit) -> Breach:

@@ -5,7 +5,7 @@ A step is what results print of it (``PathStep``); no model is looked up here, a
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 from mmsverify.audit import words
@@ -16,6 +16,12 @@ from mmsverify.model.rows import PLUS
 Arguments = Mapping[str, Any]
 State = Mapping[str, Any]
 
+FLAGS = {
+    "interlocks_violated": "safetyInterlocksViolated",
+    "any_power": "anyPhysicalResourcePowerOn",
+    "all_calibrated": "allPhysicalResourcesCalibrated",
+    "local_control": "localControl",
+}
 TELLS_STATE = frozenset({"start", "stop", "resume", "reset"})
 OUTSTANDING = 5
 SEMAPHORE = ("vmd-specific", words.SEMAPHORE)
@@ -127,13 +133,12 @@ def _status(state: State) -> dict[str, int]:
 
 
 def robot_status(state: State) -> dict[str, Any]:
-    """The robot detail of Status (7.3.2.1.2); power and calibration are not in the model: always there."""
-    flags = ["anyPhysicalResourcePowerOn", "allPhysicalResourcesCalibrated"]
-    local = ["localControl"] if state["local_control"] else []
+    """The robot detail of Status (7.3.2.1.2)."""
+    flags = [flag for cell, flag in FLAGS.items() if state[cell]]
     chosen = [name for name in programs(state) if state[f"selected[{name}]"]]
     return {
         "robotVMDState": words.ROBOT_STATE.index(state["robot_state"]),
-        "robotSpecificStatus": bit_string("RobotSpecificStatus", [*flags, *local], 4),
+        "robotSpecificStatus": bit_string("RobotSpecificStatus", flags, 4),
         "robotSpecificStatusMask": "1111",
         "selectedProgramInvocation": ("programInvocation", chosen[0]) if chosen else ("noneSelected", None),
     }
@@ -144,16 +149,40 @@ def unsolicited_status(state: State) -> Pdu:
     return Pdu("unconfirmed-PDU", None, "unsolicitedStatus", _status(state), robot_status(state))
 
 
-VARIABLES: Mapping[str, Callable[[State], tuple[str, Any]]] = {
-    "R_VLOCAL": lambda state: ("boolean", state["local_control"]),
+def variables(state: State, calibrated: Collection[str]) -> dict[str, tuple[str, Any]]:
+    """The standardized variables that show something of the model's state (8.5), with their Data.
+
+    ``calibrated`` are the physical resources that have a calibration attribute.
+    """
+    found: dict[str, tuple[str, Any]] = {name: ("boolean", state[cell]) for name, cell in OF_VMD.items()}
+    for device in devices(state):
+        found |= {
+            f"{device}/{name}": ("boolean", state[f"{cell}[{device}]"]) for name, cell in OF_DEVICE.items()
+        }
+        if device in calibrated:
+            calibration = words.CALIBRATION.index(state[f"calibration[{device}]"])
+            found[f"{device}/R_DCAL"] = ("integer", calibration)
+    return found
+
+
+OF_VMD = {
+    "R_VPWR": "any_power",
+    "R_VCAL": "all_calibrated",
+    "R_VLOCAL": "local_control",
+    "R_VSAFEV": "interlocks_violated",
 }
-"""The standardized variables that show something of the model's state (8.5), with their Data."""
+OF_DEVICE = {"R_DPWR": "power", "R_DLOCAL": "device_local"}
 
 
-def values(invoke_id: int, names: Sequence[str], state: State) -> Pdu:
-    """What Read answers for standardized variables in this state."""
-    found = [("success", VARIABLES[name](state)) for name in names]
+def values(invoke_id: int, shown: Sequence[tuple[str, Any]]) -> Pdu:
+    """What Read answers for variables that have these Data."""
+    found = [("success", data) for data in shown]
     return Pdu("confirmed-ResponsePDU", invoke_id, "read", {"listOfAccessResult": found})
+
+
+def devices(state: State) -> list[str]:
+    """Names of the physical resources that a state speaks of."""
+    return [cell[len("power[") : -1] for cell in state if cell.startswith("power[")]
 
 
 def programs(state: State) -> list[str]:
@@ -174,7 +203,7 @@ def attributes(invoke_id: int, name: str, state: State) -> Pdu:
         "monitor": False,
         "executionArgument": ("simpleString", ""),
     }
-    detail = {"errorCode": 0, "control": _control(name, state)}
+    detail = {"errorCode": state[f"error_code[{name}]"], "control": _control(name, state)}
     return Pdu("confirmed-ResponsePDU", invoke_id, "getProgramInvocationAttributes", body, detail)
 
 
@@ -183,7 +212,12 @@ def _control(name: str, state: State) -> tuple[str, Any]:
     match state[f"control[{name}]"]:
         case "CONTROLLING":
             listed = [c for c in names if state[f"controls[{name}, {c}]"]]
-            return "controlling", {"controlledPI": listed, "runningMode": _mode(name, state)}
+            location = "1" if state[f"located[{name}]"] else ""
+            return "controlling", {
+                "controlledPI": listed,
+                "programLocation": location,
+                "runningMode": _mode(name, state),
+            }
         case "CONTROLLED":
             leaders = [a for a in names if state[f"controller[{name}, {a}]"]]
             return "controlled", ("controllingPI", leaders[0]) if leaders else ("none", None)

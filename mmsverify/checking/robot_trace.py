@@ -1,8 +1,8 @@
 """A run of the robot model as the conversation that would show it: who sends which MMS PDU, in order.
 
 Steps that are messages become messages; what happens inside the robot shows only where its status changes,
-which it tells by UnsolicitedStatus. A Status and the attributes of every program invocation stand at both
-ends.
+which it tells by UnsolicitedStatus. A Status, the attributes of every program invocation and the variables of
+every physical resource stand at both ends.
 """
 
 from __future__ import annotations
@@ -85,6 +85,8 @@ class _Speaker:
         self.steps = steps
         self.waiting: dict[tuple[str, str], int] = {}
         self.last_id = 0
+        first = steps[0].state
+        self.calibrated = [d for d in messages.devices(first) if first[f"needs_calibration[{d}]"]]
 
     def speak(self) -> Iterator[Sent]:
         yield from self._show(self.steps[0])
@@ -93,7 +95,7 @@ class _Speaker:
         yield from self._show(self.steps[-1])
 
     def _show(self, step: PathStep) -> Iterator[Sent]:
-        """Status, and the attributes of every program invocation and every domain."""
+        """Status, the attributes of program invocations and domains, the variables of physical resources."""
         yield Sent(OBSERVER, "client", messages.request(self._id(), "status", {}))
         yield Sent(OBSERVER, "server", messages.answer(self.last_id, "status", {}, PLUS, step.state))
         for name in messages.programs(step.state):
@@ -106,6 +108,10 @@ class _Speaker:
             yield Sent(OBSERVER, "client", asked)
             shown = domain_messages.attributes(self.last_id, name, step.state, programs)
             yield Sent(OBSERVER, "server", shown)
+        shown = messages.variables(step.state, self.calibrated)
+        asked = messages.request(self._id(), "read", {"variables": list(shown)})
+        yield Sent(OBSERVER, "client", asked)
+        yield Sent(OBSERVER, "server", messages.values(self.last_id, list(shown.values())))
 
     def _id(self) -> int:
         self.last_id += 1

@@ -85,8 +85,15 @@ class Explorer:
         depth = self.request.depth if longest is None else longest
         part = sliced(self.model, group)
         tight = narrowed(part, scope)
+        machine = Machine(part, tight)
+        idle = [claim for claim in group if machine.out_of_reach(claim)]
+        for claim in idle:
+            self.searches.setdefault(claim.name, []).append(Search(str(scope), 0, True, ""))
+        group = [claim for claim in group if claim not in idle]
+        if not group:
+            return
         result = search(
-            part, tight, claims=group, machine=Machine(part, tight), symmetry=True,
+            part, tight, claims=group, machine=machine, symmetry=True,
             max_states=states, max_depth=depth, max_seconds=self.request.timeout,
         )  # fmt: skip
         for claim in group:

@@ -111,6 +111,12 @@ class Machine:
     def _memo(self, key: object) -> dict[int, int]:
         return self._memos.setdefault(key, {})
 
+    def out_of_reach(self, claim: Claim) -> bool:
+        """Whether what is fixed in this scope already tells that no state, or no step, settles a claim."""
+        if speaks_of_steps(claim):
+            return all(self.check(claim, number) == FALSE for number in range(len(self.instances)))
+        return self.grounding.formula(event(claim), {}) == FALSE
+
     def predicate(self, formula: Expr) -> Predicate:
         """A closed one-state formula as a function of a packed state."""
         return compile_predicate(self.formulas, self.grounding.formula(formula, {}))

@@ -5,7 +5,10 @@ that it mends and the reason. One file per clause group; the text and its repair
 """
 
 from .associations import Associations, AssociationsRepaired
+from .attributes import Attributes
 from .consequences import CONSEQUENCES
+from .device_properties import DeviceProperties
+from .devices import Devices
 from .domains import Domains, DomainsRepaired
 from .execution import Execution
 from .execution_repaired import ExecutionRepaired
@@ -26,7 +29,8 @@ VIEWS = {"robot state": "robot_state", "program invocation": "state"}
 
 
 class AsWritten(
-    Programs, Selection, Execution, Vmd, Associations, Domains, Observations, Properties, Services, Figure8, Transitions,
+    Programs, Selection, Execution, Vmd, Associations, Domains, Devices, Observations,
+    Properties, DeviceProperties, Services, Attributes, Figure8, Transitions,
     name="mms-robot", variant="as-written", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
     consequences=CONSEQUENCES,
 ):  # fmt: skip
@@ -34,8 +38,8 @@ class AsWritten(
 
 
 class Repaired(
-    ProgramsRepaired, SelectionRepaired, ExecutionRepaired, VmdRepaired, AssociationsRepaired, DomainsRepaired, Observations,
-    PropertiesRepaired, Services, Figure8Repaired, TransitionsRepaired,
+    ProgramsRepaired, SelectionRepaired, ExecutionRepaired, VmdRepaired, AssociationsRepaired, DomainsRepaired, Devices, Observations,
+    PropertiesRepaired, DeviceProperties, Services, Attributes, Figure8Repaired, TransitionsRepaired,
     name="mms-robot", variant="repaired", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
     consequences=CONSEQUENCES,
 ):  # fmt: skip

@@ -44,6 +44,11 @@ CONSEQUENCES = {
     "the arm may have moved.",
     "intervention_left_by_operator": "A service from afar ends MANUAL-INTERVENTION-REQUIRED while the operator is still inside the fence.",
     "association_changes_nothing": "Plugging or pulling a network cable changes what the robot does.",
+    "calibrating_until_finished": "A calibration program that was killed or reset leaves its arm CALIBRATING for ever: a client waits for an end that never comes.",
+    "calibration_does_not_load": "The robot says that it is loaded when the calibration program is all that is left.",
+    "local_devices_are_not_changed": "Somebody holds the arm at the panel, and a client far away starts to calibrate it.",
+    "start_count_positive": "A program is started for no cycle or step at all: what it does then, no two controllers agree.",
+    "resume_count_positive": "A program is resumed for no cycle or step at all: what it does then, no two controllers agree.",
     "figure_8": "The robot changes its state in a way that figure 8 does not show: a client programmed from the figure loses track.",
     "clear_needs_load": "Status falls back to ROBOT-IDLE although no task program was there to be cleared: counts of programs go wrong.",
     "ready_left_by_deassign": "Creating another task program takes READY away from the assigned one: the next Start is answered from a state that "

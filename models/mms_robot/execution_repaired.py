@@ -40,6 +40,7 @@ class ExecutionRepaired(Execution, VocabularyRepaired):
     no_steps = limit.present & (limit == Mode.STEP_LIMITED) & ~step_limited()
     run_all = [
         state[c].becomes(State.RUNNING).over(c).when(is_controlling & controls[pi, c]),
+        untried[c].becomes(False).over(c).when((c == pi) | (is_controlling & controls[pi, c])),
         state[pi].becomes(State.RUNNING),
         motion().becomes(True).when(moves_arm | (is_controlling & drives_arm)),
     ]  # fmt: skip
@@ -76,6 +77,8 @@ class ExecutionRepaired(Execution, VocabularyRepaired):
             refuse("R-7.3.3.3.1.4-2", "R-7.3.3.3.1.5-2", "RP-14", when=bad_count, rule="start.count", says="the count {count} is not positive"),
             refuse("R-7.3.3.3.1.5-3", "R-7.3.3.3.4.2-2", when=no_steps, rule="start.steps-unsupported", says="STEP-LIMITED is not supported"),
             do("e1", *set_mode, cites=["R-7.3.3.3.3-e2", "R-7.3.3.3.3-e3"]),
+            do("e4", starts_elsewhere[pi].becomes(location_given).when(is_controlling), cites=["R-7.3.3.3.3-e5"]),
+            do("R-6.3.6-3", *calibrating),
             do("g", *run_all, cites=["R-7.3.3.3.3-f", "R-6.3.5.6-1", "RP-02"]),
             accept("g"),
         ],
@@ -134,6 +137,7 @@ class ExecutionRepaired(Execution, VocabularyRepaired):
             refuse("R-7.3.3.5.1.5-2", "R-7.3.3.5.1.6-2", "RP-14", when=bad_count, rule="resume.count", says="the count {count} is not positive"),
             refuse("R-7.3.3.5.1.6-1", when=no_steps, rule="resume.steps-unsupported", says="STEP-LIMITED is not supported"),
             do("f1", *set_mode, cites=["R-7.3.3.5.3-f2", "R-7.3.3.5.3-f3"]),
+            do("R-6.3.6-3", *calibrating),
             do("g", *run_all, cites=["R-7.3.3.5.3-e2", "R-6.3.5.10-1", "RP-02", "RP-06"]),
             accept("g"),
         ],
@@ -157,6 +161,7 @@ class ExecutionRepaired(Execution, VocabularyRepaired):
             do("R-6.1.3.2.6-2", controller[c, a].becomes(False).over(c, a).when(~reusable[pi] & selected[pi] & (a == pi)),
                controls[a, c].becomes(False).over(a, c).when(~reusable[pi] & selected[pi] & (a == pi)),
                selected[a].becomes(False).over(a).when(~reusable[pi] & (a == pi)), cites=["RP-04"]),
+            do("R-6.3.6-5", *breaks_off, cites=["RP-26"]),
             do("c", state[pi].becomes(if_(reusable[pi], State.IDLE, State.UNRUNNABLE)), motion().becomes(False).when(moves_arm)),
             accept("c"),
         ],
@@ -183,6 +188,7 @@ class ExecutionRepaired(Execution, VocabularyRepaired):
 
     # A service that fails for a reason of the controller's own, and says that the program invocation is UNRUNNABLE now.
     fail = [
+        *breaks_off,
         state[c].becomes(State.STOPPED).over(c).when(selected[pi] & controls[pi, c] & (state[c] == State.RUNNING)),
         controller[c, a].becomes(False).over(c, a).when(selected[pi] & (a == pi)),
         controls[a, c].becomes(False).over(a, c).when(selected[pi] & (a == pi)),

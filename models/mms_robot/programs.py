@@ -19,7 +19,16 @@ from mmsverify.model import (
 )  # fmt: skip
 
 from .admission import ALL_BUT_RUNNING, EVERYTHING, admission
-from .vocabulary import Control, DomainState, Mode, RobotState, State, Vocabulary, VocabularyRepaired
+from .vocabulary import (
+    Calibration,
+    Control,
+    DomainState,
+    Mode,
+    RobotState,
+    State,
+    Vocabulary,
+    VocabularyRepaired,
+)
 
 
 class Programs(Vocabulary):
@@ -44,9 +53,10 @@ class Programs(Vocabulary):
             refuse("0", "B-CREATE", when=exists[pi], rule="create.exists", says="{pi} exists already"),
             *domains_fit,
             do("0", state[pi].becomes(State.IDLE), control[pi].becomes(kind), deletable[pi].becomes(True),
-               reusable[pi].becomes(reuse), arm[pi].becomes(binds_arm), *bind_domains),
+               reusable[pi].becomes(reuse), arm[pi].becomes(binds_arm), error_code[pi].becomes(0), untried[pi].becomes(True), *bind_domains),
             do("a", controls[pi, c].becomes(False).over(c).when(kind == Control.CONTROLLING),
-               mode[pi].becomes(Mode.FREE_RUN).when(kind == Control.CONTROLLING)),
+               mode[pi].becomes(Mode.FREE_RUN).when(kind == Control.CONTROLLING),
+               located[pi].becomes(False).when(kind == Control.CONTROLLING)),
             do("b", controller[pi, a].becomes(False).over(a).when(kind == Control.CONTROLLED)),
             do("R-5.3.1.3.3.2-3", robot_state().becomes(RobotState.LOADED).when(kind == Control.CONTROLLING), cites=["R-6.3.5.2-1"]),
             accept("0"),
@@ -87,8 +97,9 @@ class Programs(Vocabulary):
     end_of_execution = Transition(
         "R-5.3.1.3.3.7-1", "R-6.3.5.7-1", "R-6.3.2.5-3", "B-END",
         on=internal("end_of_execution", pi),
-        when=[state[pi] == State.RUNNING],
+        when=[state[pi] == State.RUNNING, ~calibrates[pi]],
         then=[state[pi].becomes(if_(reusable[pi], State.IDLE, State.UNRUNNABLE)),
+              cycles[pi].becomes(0).when(mode[pi] == Mode.CYCLE_LIMITED),
               robot_state().becomes(RobotState.LOADED).when(selected[pi] & (robot_state() == RobotState.EXECUTING))],
     )  # fmt: skip
 
@@ -139,8 +150,8 @@ class ProgramsRepaired(Programs, VocabularyRepaired):
             refuse("0", "B-CREATE", when=exists[pi], rule="create.exists", says="{pi} exists already"),
             *domains_fit,
             do("0", state[pi].becomes(State.IDLE), control[pi].becomes(kind), deletable[pi].becomes(True),
-               reusable[pi].becomes(reuse), arm[pi].becomes(binds_arm), *bind_domains),
-            do("a", controls[pi, c].becomes(False).over(c), mode[pi].becomes(Mode.FREE_RUN)),
+               reusable[pi].becomes(reuse), arm[pi].becomes(binds_arm), error_code[pi].becomes(0), untried[pi].becomes(True), *bind_domains),
+            do("a", controls[pi, c].becomes(False).over(c), mode[pi].becomes(Mode.FREE_RUN), located[pi].becomes(False)),
             do("b", controller[pi, a].becomes(False).over(a)),
             accept("0"),
         ],
@@ -180,6 +191,7 @@ class ProgramsRepaired(Programs, VocabularyRepaired):
             refuse("a", "B-KILL", unless=exists[pi], rule="kill.unknown", says="{pi} does not exist"),
             refuse("b", unless=holder[user] | panel, rule="kill.without-control", says="{user} does not hold R_CTRL"),
             do("R-6.1.3.2.6-2", *deselect_first, cites=["RP-03", "RP-04"]),
+            do("R-6.3.6-5", *breaks_off, cites=["RP-26"]),
             do("c", state[pi].becomes(State.UNRUNNABLE)),
             accept("c"),
         ],
@@ -189,14 +201,14 @@ class ProgramsRepaired(Programs, VocabularyRepaired):
     end_of_execution = Transition(
         "R-5.3.1.3.3.7-1", "R-5.3.1.3.3.7-2", "R-6.3.5.7-1", "R-6.3.2.5-3", "B-END",
         on=internal("end_of_execution", pi),
-        when=[state[pi] == State.RUNNING],
+        when=[state[pi] == State.RUNNING, ~calibrates[pi]],
         then=[
             state[c].becomes(State.IDLE).over(c).when(selected[pi] & controls[pi, c] & started[c]),
             state[pi].becomes(if_(reusable[pi], State.IDLE, State.UNRUNNABLE)),
             controller[c, a].becomes(False).over(c, a).when(selected[pi] & (a == pi)),
             controls[a, c].becomes(False).over(a, c).when(selected[pi] & (a == pi)),
             motion().becomes(False).when(selected[pi] | moves_arm),
-            cycles[pi].becomes(0),
+            cycles[pi].becomes(0).when(mode[pi] == Mode.CYCLE_LIMITED),
             selected[a].becomes(False).over(a).when(a == pi),
         ],
         repairs=repaired("RP-05", "R-5.3.1.3.3.7-1", "R-6.3.2.5-3",
@@ -216,6 +228,7 @@ class ProgramsRepaired(Programs, VocabularyRepaired):
         on=internal("fails_by_itself", pi, destructive),
         when=[state[pi] == State.RUNNING],
         then=[
+            calibration[r].becomes(Calibration.NOT_CALIBRATED).over(r).when(destructive & calibrates_device[pi, r]),
             state[c].becomes(State.STOPPED).over(c).when(destructive & selected[pi] & controls[pi, c] & (state[c] == State.RUNNING)),
             state[pi].becomes(if_(destructive, State.UNRUNNABLE, State.STOPPED)),
             controller[c, a].becomes(False).over(c, a).when(destructive & selected[pi] & (a == pi)),

@@ -32,6 +32,7 @@ def scenario(
         "Request": tuple(f"request{i + 1}" for i in range(sizes.get("Request", 1))),
         "Domain": domain_names(predefined, sizes.get("Domain", 0)),
         "Upload": tuple(f"upload{i + 1}" for i in range(sizes.get("Upload", 0))),
+        "Device": _devices(_arms(profile), sizes),
     }
     facts: dict[tuple[str, tuple[str, ...]], Any] = {
         ("step_limited", ()): bool(profile.get("step_limited", True)),
@@ -40,6 +41,8 @@ def scenario(
     for name in elements["PI"]:
         entry = next((e for e in predefined if e["name"] == name), None)
         facts |= attributes(name, entry, profile)
+        facts |= _calibrates(name, entry, elements["Device"], _arms(profile))
+    facts |= {("needs_calibration", (arm,)): True for arm in _arms(profile) if arm in elements["Device"]}
     return elements, facts | domain_facts(elements["Domain"], elements["PI"], predefined)
 
 
@@ -66,6 +69,28 @@ def domain_facts(
         }
         facts |= {("predefined_uses", (p, name)): name in bound.get(p, ()) for p in programs}
     return facts
+
+
+def _arms(profile: Mapping[str, Any]) -> tuple[str, ...]:
+    """The domains that represent robot arms (6.2.1): those of the program invocations that operate them."""
+    arms = profile.get("arms", ["R_ARM"])
+    entries = [entry for entry in profile.get("predefined", DEFAULT) if entry["name"] in arms]
+    return tuple(dict.fromkeys(d for entry in entries for d in entry.get("domains", ()))) or ("R_ARM",)
+
+
+def _devices(arms: tuple[str, ...], sizes: Mapping[str, int]) -> tuple[str, ...]:
+    """The arms, as many as fit, then other physical resources."""
+    size = sizes.get("Device", len(arms))
+    return (*arms[:size], *(f"DEVICE{i + 1}" for i in range(size - len(arms))))
+
+
+def _calibrates(
+    name: str, entry: Mapping[str, Any] | None, devices: tuple[str, ...], arms: tuple[str, ...]
+) -> dict[tuple[str, tuple[str, ...]], Any]:
+    """What a program invocation calibrates: R_CAL the only arm; which of several, a profile does not say."""
+    if name != "R_CAL" or entry is None:
+        return {("calibrates_device", (name, device)): False for device in devices}
+    return {("calibrates_device", (name, arm)): True for arm in arms if arms == (arm,) and arm in devices}
 
 
 def attributes(

@@ -3,13 +3,26 @@
 VMD Stop, VMD Reset, emergency action, local control and the two statuses.
 """
 
-from mmsverify.model import Procedure, Transition, accept, do, if_, internal, refuse, repaired, response
+from mmsverify.model import (
+    Procedure,
+    Transition,
+    accept,
+    do,
+    for_some,
+    if_,
+    internal,
+    refuse,
+    repaired,
+    response,
+)
 
-from .vocabulary import Logical, Physical, RobotState, State, Vocabulary, VocabularyRepaired
+from .vocabulary import Calibration, Logical, Physical, RobotState, State, Vocabulary, VocabularyRepaired
 
 
 class Vmd(Vocabulary):
     """As written."""
+
+    done_before = PI.some("done_before")
 
     # "Their state is a local matter": each of them ends in one of the states that are not RUNNING.
     halted = if_(to_idle.has(p), State.IDLE, if_(to_unrunnable.has(p), State.UNRUNNABLE, State.STOPPED))
@@ -17,26 +30,30 @@ class Vmd(Vocabulary):
 
     vmd_stop = Procedure(
         "R-7.4.2.2",
-        on=response("vMDStop", request, user, to_idle, to_unrunnable),
+        on=response("vMDStop", request, user, to_idle, to_unrunnable, held),
         steps=[
             refuse("1", unless=holder[user], rule="vmd-stop.without-control", says="{user} does not hold R_CTRL"),
-            do("2", motion().becomes(False)),
+            do("2", motion().becomes(False), cites=["R-7.4.2-1", "R-7.3.3.4.1-3"]),
             do("3", robot_state().becomes(RobotState.INTERVENTION), cites=["R-T8-1"]),
             do("4", *halt_all),
-            do("5", logical().becomes(Logical.NO_STATE_CHANGES_ALLOWED), physical().becomes(Physical.NEEDS_COMMISSIONING),
-               cites=["R-T8-3", "R-T8-4"]),
+            do("5", logical().becomes(Logical.NO_STATE_CHANGES_ALLOWED), cites=["R-T8-3"]),
+            do("R-T8-4", physical().becomes(Physical.NEEDS_COMMISSIONING)),
+            do("R-T8-2", local_control().becomes(for_some(r)(held.has(r))), device_local[r].becomes(held.has(r)).over(r)),
             accept("5"),
         ],
     )  # fmt: skip
 
     vmd_reset = Procedure(
         "R-7.4.3.2",
-        on=response("vMDReset", request, user, prevented),
+        on=response("vMDReset", request, user, prevented, step_fails, done_before),
         steps=[
             refuse("a", unless=holder[user], rule="vmd-reset.without-control", says="{user} does not hold R_CTRL"),
             refuse("b", when=robot_state() == RobotState.EXECUTING, rule="vmd-reset.executing", says="the robot is executing"),
             refuse("c", when=prevented, rule="vmd-reset.prevented", says="local conditions prevent it"),
-            do("d", state[p].becomes(State.NON_EXISTENT).over(p).when(deletable[p]), *reset_domains),
+            # Any step may fail, and then the service does: what had been deleted before stays deleted.
+            do("d", state[p].becomes(State.NON_EXISTENT).over(p).when(deletable[p] & (~step_fails | done_before.has(p)))),
+            refuse("1", when=step_fails, rule="vmd-reset.step-fails", says="a step of it failed"),
+            do("d", *reset_domains),
             do("e", robot_state().becomes(RobotState.IDLE)),
             accept("f"),
         ],
@@ -63,10 +80,10 @@ class Vmd(Vocabulary):
     )  # fmt: skip
 
     local_control_changes = Transition(
-        "R-5.3.1.4-1", "R-T1-1", "RP-18",
-        on=internal("local_control_changes", taken, status),
-        when=[(taken | (robot_state() == RobotState.INTERVENTION)) >> (status != Logical.STATE_CHANGES_ALLOWED)],
-        then=[local_control().becomes(taken), logical().becomes(status)],
+        "R-5.3.1.4-1", "R-5.3.1.4-2", "R-6.2.2.2-1", "R-6.2.3.2-1", "R-T1-1", "RP-18",
+        on=internal("local_control_changes", taken, held, status),
+        when=[taken == for_some(r)(held.has(r)), (taken | (robot_state() == RobotState.INTERVENTION)) >> (status != Logical.STATE_CHANGES_ALLOWED)],
+        then=[local_control().becomes(taken), device_local[r].becomes(held.has(r)).over(r), logical().becomes(status)],
         observation_only=True,
     )  # fmt: skip
 
@@ -85,6 +102,7 @@ class VmdRepaired(Vmd, VocabularyRepaired):
 
     # A selected program invocation that becomes UNRUNNABLE is deselected first (RP-04).
     lost = selected[a] & active[a] & to_unrunnable.has(a)
+    not_stopped = to_idle.has(p) | to_unrunnable.has(p)
     deselect_lost = [
         controller[c, a].becomes(False).over(c, a).when(lost),
         controls[a, c].becomes(False).over(a, c).when(lost),
@@ -96,15 +114,18 @@ class VmdRepaired(Vmd, VocabularyRepaired):
         steps=[
             refuse("R-3.2.1-1", "RP-10", when=local_control() != panel, rule="vmd-stop.local-control", says="the robot is in local control"),
             refuse("1", unless=holder[user] | panel, rule="vmd-stop.without-control", says="{user} does not hold R_CTRL"),
-            do("2", motion().becomes(False), cites=["RP-03"]),
+            do("2", motion().becomes(False), cites=["R-7.4.2-1", "R-7.3.3.4.1-3", "RP-03"]),
             do("3", intervention().becomes(True), cites=["R-T8-1", "R-6.3.5.13-3"]),
             do("R-6.1.3.2.6-2", *deselect_lost, cites=["RP-04"]),
+            do("R-6.3.6-5", calibration[r].becomes(Calibration.NOT_CALIBRATED).over(p, r).when(cut_short[p, r] & active[p] & not_stopped),
+               cites=["RP-26"]),
             do("4", *halt_all, selected[a].becomes(False).over(a).when(lost)),
-            do("5", logical().becomes(Logical.NO_STATE_CHANGES_ALLOWED), physical().becomes(Physical.NEEDS_COMMISSIONING),
-               cites=["R-T8-3", "R-T8-4"]),
-            accept("5"),
+            do("5", logical().becomes(Logical.NO_STATE_CHANGES_ALLOWED), cites=["R-T8-3"]),
+            do("R-T8-4", physical().becomes(Physical.NEEDS_COMMISSIONING)),
+            accept("5", "R-T8-2", "RP-28"),
         ],
-        repairs=repaired("RP-12", "R-7.4.2.2-3", because="MANUAL-INTERVENTION-REQUIRED is stored by itself"),
+        repairs=repaired("RP-12", "R-7.4.2.2-3", "R-T8-2",
+                         because="MANUAL-INTERVENTION-REQUIRED is stored by itself, and an undefined local control is no change of it"),
     )  # fmt: skip
 
     vmd_reset = Procedure(
@@ -118,13 +139,15 @@ class VmdRepaired(Vmd, VocabularyRepaired):
                    rule="vmd-reset.logical-status", level="warning", says="the logical status of the VMD does not admit the service"),
             refuse("a", unless=holder[user] | panel, rule="vmd-reset.without-control", says="{user} does not hold R_CTRL"),
             refuse("b", when=robot_state() == RobotState.EXECUTING, rule="vmd-reset.executing", says="the robot is executing"),
-            refuse("c", when=prevented, rule="vmd-reset.prevented", says="local conditions prevent it"),
+            refuse("c", "R-7.4.3.2-1", "RP-01", when=prevented, rule="vmd-reset.prevented", says="local conditions prevent it"),
+            do("R-6.3.6-5", calibration[r].becomes(Calibration.NOT_CALIBRATED).over(p, r).when(cut_short[p, r] & to_idle.has(p)),
+               cites=["RP-26"]),
             do("R-6.1.3.2.6-2", controller[c, a].becomes(False).over(c, a), controls[a, c].becomes(False).over(a, c),
                selected[a].becomes(False).over(a), motion().becomes(False), cites=["RP-08"]),
             do("d", state[p].becomes(if_(deletable[p], State.NON_EXISTENT,
                                          if_(to_idle.has(p), State.IDLE, if_(active[p], State.STOPPED, state[p])))).over(p).when(exists[p]),
                *clear_domains),
-            accept("f", "R-7.4.3.2-e"),
+            accept("f", "R-7.4.3.2-e", "R-7.4.3-1"),
         ],
         repairs=repaired("RP-08", "R-7.4.3.2-d", "R-7.4.3.2-e",
                          because="the text leaves references to deleted program invocations, and calls the robot IDLE beside controlling ones"),
@@ -138,6 +161,7 @@ class VmdRepaired(Vmd, VocabularyRepaired):
               controller[c, a].becomes(False).over(c, a).when(lost & to_stopped.has(a)),
               controls[a, c].becomes(False).over(a, c).when(lost & to_stopped.has(a)),
               selected[a].becomes(False).over(a).when(lost & to_stopped.has(a)),
+              calibration[r].becomes(Calibration.NOT_CALIBRATED).over(p, r).when(cut_short[p, r] & active[p] & to_stopped.has(p) & not_stopped),
               state[p].becomes(halted).over(p).when(active[p] & to_stopped.has(p)),
               logical().becomes(status), physical().becomes(Physical.NEEDS_COMMISSIONING)],
         observation_only=True,
@@ -153,6 +177,7 @@ class VmdRepaired(Vmd, VocabularyRepaired):
             controller[c, a].becomes(False).over(c, a).when(cleared | (selected[a] & to_unrunnable.has(a))),
             controls[a, c].becomes(False).over(a, c).when(cleared | (selected[a] & to_unrunnable.has(a))),
             selected[a].becomes(False).over(a).when(cleared | to_unrunnable.has(a)),
+            calibration[r].becomes(Calibration.NOT_CALIBRATED).over(p, r).when(cut_short[p, r] & (to_idle.has(p) | to_unrunnable.has(p))),
             state[p].becomes(if_(to_unrunnable.has(p), State.UNRUNNABLE, if_(to_idle.has(p), State.IDLE, if_(to_stopped.has(p), State.STOPPED, state[p]))))
             .over(p).when(exists[p]),
         ],
@@ -162,10 +187,10 @@ class VmdRepaired(Vmd, VocabularyRepaired):
     )  # fmt: skip
 
     local_control_changes = Transition(
-        "R-5.3.1.4-1", "R-T1-1", "RP-18",
-        on=internal("local_control_changes", taken, status),
-        when=[(taken | intervention()) >> (status != Logical.STATE_CHANGES_ALLOWED)],
-        then=[local_control().becomes(taken), logical().becomes(status)],
+        "R-5.3.1.4-1", "R-5.3.1.4-2", "R-6.2.2.2-1", "R-6.2.3.2-1", "R-T1-1", "RP-18",
+        on=internal("local_control_changes", taken, held, status),
+        when=[taken == for_some(r)(held.has(r)), (taken | intervention()) >> (status != Logical.STATE_CHANGES_ALLOWED)],
+        then=[local_control().becomes(taken), device_local[r].becomes(held.has(r)).over(r), logical().becomes(status)],
         observation_only=True,
         repairs=repaired("RP-12", "R-T1-1", because="MANUAL-INTERVENTION-REQUIRED is stored by itself"),
     )  # fmt: skip

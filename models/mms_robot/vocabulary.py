@@ -99,6 +99,14 @@ class UploadState(Enumeration):
     UPLOADED = "UPLOADED"
 
 
+class Calibration(Enumeration):
+    """The calibration state of a physical resource (6.2.2.4, 6.3.6)."""
+
+    CALIBRATED = "CALIBRATED"
+    NOT_CALIBRATED = "NOT-CALIBRATED"
+    CALIBRATING = "CALIBRATING"
+
+
 class Vocabulary(Model):
     """Sorts, variables and parameters; no rows."""
 
@@ -107,6 +115,7 @@ class Vocabulary(Model):
     Request = Each("Request")
     Domain = Each("Domain")
     Upload = Each("Upload")
+    Device = Each("Device")
 
     # What a profile fixes.
     predefined = Relation(PI, rigid=True, doc="exists at power-on")
@@ -119,6 +128,10 @@ class Vocabulary(Model):
     standard_arm = Relation(PI, rigid=True, doc="R_ARM, the arm program by its standardized name (8.3.1)")
     step_limited = Relation(rigid=True, doc="STEP-LIMITED is supported (PICS part 6)")
     single_association = Relation(rigid=True, doc="base class: one association, which holds R_CTRL")
+    calibrates_device = Relation(
+        PI, Device, rigid=True, doc="the calibration program is for this physical resource"
+    )
+    needs_calibration = Relation(Device, rigid=True, doc="has a calibration attribute (6.2.2.4, 6.2.3.4)")
 
     # Program invocations (6.3.2).
     state = Variable(State, PI)
@@ -134,6 +147,26 @@ class Vocabulary(Model):
     mode = Variable(Mode, PI, cites=["R-6.3.2-2", "R-5.3.2-3"])
     cycles = Variable(integer(0), PI, doc="remaining cycle count (6.3.2.6)", cites=["R-6.3.2-3", "R-5.3.2-1"])
     steps = Variable(integer(0), PI, doc="remaining step count (6.3.2.7)", cites=["R-6.3.2-3", "R-5.3.2-1"])
+    error_code = Variable(
+        integer(), PI, doc="the last recorded error of its execution; zero is none (6.3.2.1)"
+    )
+    located = Relation(PI, doc="its program location is not the empty string (6.3.2.4)")
+    starts_elsewhere = Relation(
+        PI, doc="execution begins at a start location, not at the first step (7.3.3.3.1.1)"
+    )
+    untried = Relation(
+        PI, doc="created by MMS, and not asked to start since: nothing of it has been executed"
+    )
+
+    # Physical resources, each the domain that represents it, and what the VMD says of all of them (6.1.3, 6.2).
+    power = Relation(Device, doc="the resource is powered (6.2.2.3, 6.2.3.3)")
+    calibration = Variable(Calibration, Device, doc="means something where it needs calibration")
+    device_local = Relation(Device, doc="some local agent holds control of the resource (6.2.2.2, 6.2.3.2)")
+    any_power = Relation(doc="any physical resource power on (6.1.3.2.3)")
+    all_calibrated = Relation(doc="all physical resources calibrated (6.1.3.2.4)")
+    interlocks_violated = Relation(
+        doc="the safety interlocks were violated since their last reset (6.1.3.2.1)"
+    )
 
     # Domains (6.2.1, 8.2): what a profile predefines, their life, who is bound to them, who loads or reads them.
     predefined_domain = Relation(Domain, rigid=True, doc="exists at power-on")
@@ -178,6 +211,7 @@ class Vocabulary(Model):
     q = Request.element("q")
     d = Domain.element("d")
     x = Upload.element("x")
+    r = Device.element("r")
 
     # Parameters of the services.
     request = Request.element("request")
@@ -209,6 +243,8 @@ class Vocabulary(Model):
     more = parameter("more", BOOL)
     discard = parameter("discard", BOOL)
     upload = Upload.element("upload")
+    held = Device.some("held")
+    step_fails = parameter("step_fails", BOOL)
 
     exists = Derived(state[p] != State.NON_EXISTENT, over=[p])
     some_controlling = Derived(
@@ -237,6 +273,12 @@ class Vocabulary(Model):
     # VMD Reset d) as the text has it: every domain that can be deleted goes, whoever uses or transfers it.
     reset_domains = [domain_state[d].becomes(DomainState.NON_EXISTENT).over(d).when(domain_deletable[d])]
 
+    # While the calibration program executes, its resources are CALIBRATING, so that not all are CALIBRATED (6.3.6).
+    calibrating = [
+        calibration[r].becomes(Calibration.CALIBRATING).over(r).when(calibrates_device[pi, r]),
+        all_calibrated().becomes(False).when(for_some(r)(calibrates_device[pi, r])),
+    ]  # fmt: skip
+
 
 class VocabularyRepaired(Vocabulary):
     """The repaired reading: the robot state is a function of the rest, and only MANUAL-INTERVENTION-REQUIRED is stored."""
@@ -261,3 +303,7 @@ class VocabularyRepaired(Vocabulary):
         source[x, d].becomes(False).over(x, d).when(goes),
         uses[p, d].becomes(False).over(p, d).when(deletable[p]),
     ]  # fmt: skip
+
+    # A calibration program that goes away has not completed (RP-26).
+    cut_short = Derived(calibrates_device[p, r] & (calibration[r] == Calibration.CALIBRATING), over=[p, r])
+    breaks_off = [calibration[r].becomes(Calibration.NOT_CALIBRATED).over(r).when(cut_short[pi, r])]

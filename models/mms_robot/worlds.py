@@ -11,6 +11,7 @@ from typing import Any
 
 ARM = {"name": "R_ARM", "control": "CONTROLLED", "domains": ["R_ARM"], "deletable": False}
 TOOL = {"name": "R_TOOL", "control": "CONTROLLED", "domains": ["R_TOOL"], "deletable": False}
+CALIBRATION = {"name": "R_CAL", "control": "NORMAL", "domains": ["R_CAL"], "deletable": False}
 TASK = {"name": "TASK", "control": "CONTROLLING", "domains": ["TASK"], "deletable": False}
 SHARING = {"name": "OTHER", "control": "NORMAL", "domains": ["TASK"], "deletable": False}
 
@@ -26,6 +27,7 @@ def worlds(profile: Mapping[str, Any] | None) -> Iterator[dict[str, Any]]:
     yield {"sizes": {"PI": 1, "Domain": 1, "Upload": 1}, "profile": {"predefined": []}}
     yield {"sizes": {"PI": 2}, "profile": {"predefined": [ARM, TASK]}}
     yield {"sizes": {"PI": 2}, "profile": {"predefined": []}}
+    yield {"sizes": {"PI": 1}, "profile": {"predefined": [CALIBRATION]}}
     yield {"sizes": {"PI": 1, "Client": 2}, "profile": {"predefined": [ARM]}}
     yield {"sizes": {"PI": 2, "Client": 2}, "profile": {"predefined": [ARM], "associations": "multiple"}}
     yield {"sizes": {"PI": 3}, "profile": {"predefined": [ARM, TOOL, TASK]}}

@@ -45,7 +45,7 @@ LOOKS = {
         "listOfDomainNames",
     ),
     "getDomainAttributes": ("getDomainAttributes", "noDomainAttributes"),
-    "read": ("R_VLOCAL",),
+    "read": (*messages.OF_VMD, *messages.OF_DEVICE, "R_DCAL", "readTogether"),
 }
 """Services that show state, with the observations of the model that their answers are."""
 
@@ -307,7 +307,7 @@ class Talk:
             yield "getProgramInvocationAttributes", {"pi": name}
         for name in self.scope.elements["Domain"]:
             yield "getDomainAttributes", {"domain": name}
-        yield "read", {"variables": tuple(sorted(messages.VARIABLES))}
+        yield "read", {"variables": tuple(sorted(self.variables()))}
 
     def _looked(self, request: Pending) -> Pdu:
         shown, invoke_id = self.shown(), request.invoke_id
@@ -317,8 +317,15 @@ class Talk:
             programs = messages.programs(shown)
             return domain_messages.attributes(invoke_id, request.asked["domain"], shown, programs)
         if request.service == "read":
-            return messages.values(invoke_id, request.asked["variables"], shown)
+            known = self.variables()
+            return messages.values(invoke_id, [known[name] for name in request.asked["variables"]])
         return messages.answer(invoke_id, request.service, {}, PLUS, shown)
+
+    def variables(self) -> dict[str, tuple[str, Any]]:
+        """The standardized variables that show something of the state, with their values now."""
+        facts = self.scope.facts.items()
+        calibrated = [args[0] for (name, args), held in facts if name == "needs_calibration" and held]
+        return messages.variables(self.shown(), calibrated)
 
     def shown(self) -> dict[str, Any]:
         """The state in the words of results."""
