@@ -108,10 +108,10 @@ class _Speaker:
             yield Sent(OBSERVER, "client", asked)
             shown = domain_messages.attributes(self.last_id, name, step.state, programs)
             yield Sent(OBSERVER, "server", shown)
-        shown = messages.variables(step.state, self.calibrated)
-        asked = messages.request(self._id(), "read", {"variables": list(shown)})
+        values = messages.variables(step.state, self.calibrated)
+        asked = messages.request(self._id(), "read", {"variables": list(values)})
         yield Sent(OBSERVER, "client", asked)
-        yield Sent(OBSERVER, "server", messages.values(self.last_id, list(shown.values())))
+        yield Sent(OBSERVER, "server", messages.values(self.last_id, list(values.values())))
 
     def _id(self) -> int:
         self.last_id += 1
