@@ -12,7 +12,16 @@ from typing import Any
 from mmsverify.audit import words
 from mmsverify.formats.mms import Pdu, error_class_code
 
-OBSERVING = frozenset({"status", "getProgramInvocationAttributes", "getDomainAttributes", "read"})
+OBSERVING = frozenset(
+    {
+        "status",
+        "getProgramInvocationAttributes",
+        "getDomainAttributes",
+        "read",
+        "reportSemaphoreStatus",
+        "reportSemaphoreEntryStatus",
+    }
+)
 LIMITED = frozenset({"start", "stop", "resume", "reset"})
 
 
@@ -41,12 +50,8 @@ def _arguments(pdu: Pdu, arms: frozenset[str]) -> dict[str, Any] | None:
             return {"pi": body["programInvocationName"], "kind": kind, "reuse": body["reusable"],
                     "binds_arm": bool(arms.intersection(body["listOfDomainNames"])),
                     "domains": frozenset(body["listOfDomainNames"])}  # fmt: skip
-        case "initiateDownloadSequence" | "loadDomainContent":
-            return {"domain": body["domainName"], "shares": body["sharable"]}
-        case "storeDomainContent":
-            return {"domain": body["domainName"]}
-        case "deleteDomain":
-            return {"domain": body}
+        case "initiateDownloadSequence" | "loadDomainContent" | "storeDomainContent" | "deleteDomain":
+            return _of_domain(body)
         case "deleteProgramInvocation":
             return {"pi": body}
         case "start":
@@ -67,8 +72,23 @@ def _arguments(pdu: Pdu, arms: frozenset[str]) -> dict[str, Any] | None:
         case "vMDStop" | "vMDReset":
             return {}
         case "takeControl" | "relinquishControl":
-            return {} if plain_name(body["semaphoreName"]) == words.SEMAPHORE else None
+            return _taking(body) if plain_name(body["semaphoreName"]) == words.SEMAPHORE else None
     return None
+
+
+def _of_domain(body: Any) -> dict[str, Any]:
+    if isinstance(body, str):
+        return {"domain": body}
+    return {"domain": body["domainName"], **({"shares": body["sharable"]} if "sharable" in body else {})}
+
+
+def _taking(body: Mapping[str, Any]) -> dict[str, Any]:
+    """How ownership of R_CTRL may end by itself; RelinquishControl says nothing of it."""
+    return {
+        "times_out": "controlTimeOut" in body,
+        "stays": not body.get("relinquishIfConnectionLost", True),
+        "preempts": "applicationToPreempt" in body,
+    }
 
 
 def _start(detail: Any) -> dict[str, Any]:
@@ -170,6 +190,23 @@ def _control(detail: Mapping[str, Any] | None) -> dict[str, Any]:
     elif kind == "controlled":
         shown["controller_is"] = content[1]
     return shown
+
+
+ENTRY_STATES = {1: ("ownedTokens", "shown_owned"), 2: ("hungTokens", "shown_hung")}
+
+
+def shown_of_semaphore(request: Pdu, answer: Pdu) -> Iterator[Call]:
+    """What ReportSemaphoreStatus and ReportSemaphoreEntryStatus show of R_CTRL; a queue shows nothing."""
+    asked, body = request.body, answer.body
+    if request.service == "reportSemaphoreStatus":
+        if plain_name(asked) == words.SEMAPHORE:
+            yield Call("ownedTokens", {"shown_owned": body["numberOfOwnedTokens"] > 0})
+            yield Call("hungTokens", {"shown_hung": body["numberOfHungTokens"] > 0})
+    elif plain_name(asked["semaphoreName"]) == words.SEMAPHORE and asked["state"] in ENTRY_STATES:
+        service, parameter = ENTRY_STATES[asked["state"]]
+        # A continuation shows the rest of a list only.
+        if "entryIdToStartAfter" not in asked:
+            yield Call(service, {parameter: bool(body["listOfSemaphoreEntry"])})
 
 
 def read_values(request: Pdu, response: Pdu) -> Iterator[tuple[str, tuple[str, Any]]]:

@@ -43,6 +43,10 @@ class Showing:
                 yield from self._shown(message, str(asked.pdu.service), domains, None)
             case "read":
                 yield from self.values(asked.pdu, pdu, message, asked.slot)
+            case "reportSemaphoreStatus" | "reportSemaphoreEntryStatus":
+                for call in robot.shown_of_semaphore(asked.pdu, pdu):
+                    yield from self._shown(message, str(asked.pdu.service), call, asked.slot)
+                self._belief.drop(asked.slot)
             case "write":
                 yield from variables.written(asked.pdu.body, pdu.body)
 

@@ -53,8 +53,8 @@ def _asked(service: str, given: Arguments) -> tuple[Any, Any]:
             return {"programInvocation": given["pi"], "startCount": _count(given)}, None
         case "vMDReset":
             return False, None
-        case "takeControl" | "relinquishControl":
-            return {"semaphoreName": SEMAPHORE}, None
+        case "takeControl" | "relinquishControl" | "reportSemaphoreStatus":
+            return _of_semaphore(service, given), None
         case "getProgramInvocationAttributes":
             return given["pi"], None
         case "status":
@@ -66,6 +66,17 @@ def _asked(service: str, given: Arguments) -> tuple[Any, Any]:
                 "variableAccessSpecification": ("listOfVariable", asked),
             }, None
     return domain_messages.asked(service, given), None
+
+
+def _of_semaphore(service: str, given: Arguments) -> Any:
+    if service == "reportSemaphoreStatus":
+        return SEMAPHORE
+    if service == "relinquishControl":
+        return {"semaphoreName": SEMAPHORE}
+    limited = {"controlTimeOut": 60_000, "abortOnTimeOut": False} if given.get("times_out") else {}
+    taken_over: dict[str, Any] = {"applicationToPreempt": {}} if given.get("preempts") else {}
+    stays = bool(given.get("stays"))
+    return {"semaphoreName": SEMAPHORE, **limited, "relinquishIfConnectionLost": not stays, **taken_over}
 
 
 def _named(name: str) -> tuple[str, Any]:
@@ -122,6 +133,10 @@ def _answered(service: str, given: Arguments, after: State) -> tuple[Any, Any]:
             return _status(after), robot_status(after)
         case "takeControl":
             return ("noResult", None), None
+        case "reportSemaphoreStatus":
+            owned = sum(bool(held) for cell, held in after.items() if cell.startswith("holder["))
+            tokens = {"numberOfOwnedTokens": owned, "numberOfHungTokens": int(after["hung"])}
+            return {"mmsDeletable": False, "class": 0, "numberOfTokens": 1, **tokens}, None
     return domain_messages.answered(service, given), None
 
 

@@ -58,4 +58,12 @@ CONSEQUENCES = {
     "program_diagram": "A program takes a way that no state diagram shows: a client that follows it by the diagram is wrong about what runs.",
     "lists_end": "The list of a deleted task program lives on; a new program of that name controls what it never selected.",
     "references_end": "The reference of a deleted arm program lives on; a new program of that name is controlled from the start.",
+    "used_domains_exist": "A program that cannot be deleted has lost the domain that holds its text: its next Start runs nothing, or what was "
+    "loaded under that name since.",
+    "unshared_has_one_user": "Two programs are bound to a domain that only one may have: what one of them changes, the other executes.",
+    "only_existing_use": "A deleted program still counts as bound to its domain: a new program of that name inherits a program text that nobody gave it.",
+    "loading_is_bound": "A download goes on into a domain that VMD Reset has deleted: the robot asks for segments of nothing.",
+    "one_download": "Two clients load the same domain at once; what it holds in the end is a mixture.",
+    "uploads_have_domain": "A client goes on reading a program that is not there any more, and files it as the current one.",
+    "remote_cannot_change_domains": "Somebody works at the panel, and a client far away exchanges the programs under his hands.",
 }  # fmt: skip

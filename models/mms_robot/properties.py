@@ -208,7 +208,11 @@ class Properties(Vocabulary):
         "R-6.3.6-7", for_all(p)(calibrates[p] >> (control[p] == Control.NORMAL)), "R-8.3.2-3"
     )
     arm_is_controlled = Always("R-8.3.1-6", for_all(p)(standard_arm[p] >> (control[p] == Control.CONTROLLED)))
-    arm_moves_arm = Always("R-8.3.1-1", for_all(p)(standard_arm[p] >> arm[p]), says="R_ARM is bound to the domain of the robot arm")
+    arm_moves_arm = Always(
+        "R-8.3.1-1",
+        for_all(p)(standard_arm[p] >> arm[p]),
+        says="R_ARM is bound to the domain of the robot arm",
+    )
     arm_remains = Always(
         "R-8.3.1-3", for_all(p)((standard_arm[p] | calibrates[p]) >> (exists[p] & ~deletable[p])), "R-8.3.2-2"
     )

@@ -201,6 +201,9 @@ class Vocabulary(Model):
     # Associations, the semaphore R_CTRL (8.6.1), outstanding requests.
     associated = Relation(Client)
     holder = Relation(Client, doc="owns the one token of R_CTRL", cites=["R-8.6.1-1"])
+    limited = Relation(Client, doc="took R_CTRL with controlTimeOut: its ownership may end by itself")
+    keeps = Relation(Client, doc="took R_CTRL with relinquishIfConnectionLost FALSE")
+    hung = Relation(doc="the token of R_CTRL belongs to nobody, and is not free")
     entered = Relation(
         Request, PI, doc="this request's indication brought the program invocation into its transient state"
     )
@@ -216,6 +219,9 @@ class Vocabulary(Model):
     # Parameters of the services.
     request = Request.element("request")
     user = Client.element("user")
+    times_out = parameter("times_out", BOOL)
+    stays = parameter("stays", BOOL)
+    preempts = parameter("preempts", BOOL)
     panel = parameter("panel", BOOL)
     pi = PI.element("pi")
     controlling = PI.maybe("controlling")

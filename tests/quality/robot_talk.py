@@ -46,6 +46,7 @@ LOOKS = {
     ),
     "getDomainAttributes": ("getDomainAttributes", "noDomainAttributes"),
     "read": (*messages.OF_VMD, *messages.OF_DEVICE, "R_DCAL", "readTogether"),
+    "reportSemaphoreStatus": ("ownedTokens", "hungTokens"),
 }
 """Services that show state, with the observations of the model that their answers are."""
 
@@ -303,6 +304,7 @@ class Talk:
     def views(self) -> Iterator[tuple[str, dict[str, Any]]]:
         """Every request that shows something of the state."""
         yield "status", {}
+        yield "reportSemaphoreStatus", {}
         for name in self.scope.elements["PI"]:
             yield "getProgramInvocationAttributes", {"pi": name}
         for name in self.scope.elements["Domain"]:

@@ -18,10 +18,13 @@ from mmsverify.model.expr import Expr
 from mmsverify.results import ModelCheck
 from mmsverify.symbolic.certificate import reads_as
 
-# Claims that the text breaks, with the length of the shortest counterexample that is found.
+# Claims that the text breaks, with the length of the shortest counterexample; -1: proved to be out of reach.
 BROKEN = {
+    "abort-deassigns": 3,
+    "abort-removes-programs": 2,
     "calibrating-until-finished": 4,
     "calibration-does-not-load": 3,
+    "clear-needs-load": 4,
     "executing-enables-motion": 4,
     "executing-runs": 5,
     "figure-8": 3,
@@ -32,23 +35,34 @@ BROKEN = {
     "intervention-left-by-operator": 2,
     "listed-are-controlled": 5,
     "lists-follow-references": 5,
-    "local-devices-are-not-changed": 3,
     "loaded-arm-uncontrolled": 4,
     "loaded-has-controlling": 3,
+    "loading-is-bound": 3,
+    "local-devices-are-not-changed": 3,
+    "one-download": 6,
     "one-holder": 3,
+    "only-existing-use": 4,
     "paused-runs": 6,
     "predicates-exclusive": 1,
     "predicates-exhaustive": 2,
+    "program-diagram": 5,
     "ready-controls-arm": 2,
     "ready-has-idle-selected": 3,
+    "ready-left-by-deassign": 4,
     "references-are-controlling": 4,
     "references-follow-lists": 6,
     "refusal-keeps-states": 3,
+    "remote-cannot-change-domains": 2,
     "remote-cannot-in-local-control": 2,
     "resume-count-positive": 5,
     "selected-can-run": 3,
     "selected-is-controlling": 4,
     "start-count-positive": 4,
+    "stops-all": -1,
+    "stops-by-arm": -1,
+    "unshared-has-one-user": 3,
+    "uploads-have-domain": 4,
+    "used-domains-exist": 2,
 }
 
 
@@ -115,6 +129,7 @@ WORLDS = (
     World({"PI": 1, "Domain": 1, "Upload": 1}, {"predefined": []}),
     World({"PI": 2, "Domain": 2}, {"predefined": [ARM, CALIBRATION]}),
     World({"PI": 2, "Domain": 1}, {"predefined": [ARM, OTHER]}),
+    World({"PI": 1, "Client": 2}, {"predefined": [ARM], "associations": "multiple"}),
 )
 # As written, c2) of Start ends before f): no motion is enabled.
 VACUOUS = {
