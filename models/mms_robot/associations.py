@@ -60,7 +60,7 @@ class Associations(Vocabulary):
         steps=[
             refuse("R-9.2.2.1-3", "B-ASSOCIATION", unless=associated[user], rule="take-control.no-association", says="{user} has no association"),
             refuse("2", "R-5.1.3-2", "R-8.6.1-4", "B-SEMAPHORE", when=other_holds, rule="take-control.taken", says="another client holds R_CTRL"),
-            refuse("3", "B-SEMAPHORE", when=hung() & ~preempts, rule="take-control.hung", says="the token of R_CTRL hangs, and nobody takes it over"),
+            refuse("R-8.6.1-3", "B-SEMAPHORE", when=hung() & ~preempts, rule="take-control.hung", says="the token of R_CTRL hangs, and nobody takes it over"),
             do("3", holder[user].becomes(True), limited[user].becomes(times_out & ~single_association()),
                keeps[user].becomes(stays & ~single_association()), hung().becomes(False), cites=["R-5.3.1.4-4"]),
             accept("3"),
