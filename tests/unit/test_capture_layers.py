@@ -181,6 +181,7 @@ def test_user_data_behind_an_empty_parameter_are_told_and_read() -> None:
         (mms(STATUS + b"\0"), "mms"),
         (STATUS + b"\0", "mms"),
         (mms(b""), "mms"),
+        (connect(pdu=b""), "mms"),
     ],
 )
 def test_what_a_layer_cannot_read_is_told_and_the_next_message_is_read(tsdu: bytes, layer: str) -> None:

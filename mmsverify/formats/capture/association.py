@@ -98,7 +98,7 @@ class Association:
 
     def _value(self, value: Value) -> Iterator[bytes | Fault]:
         if not self._is_acse(value):
-            yield _pdu(value.octets) if value.octets[:1] else Fault("mms", "an empty presentation data value")
+            yield _pdu(value.octets)
             return
         for inner in acse.user_information(value.octets):
             self._check_context(inner)
@@ -117,6 +117,8 @@ class Association:
 
 def _pdu(octets: bytes) -> bytes | Fault:
     """Octets that look like one whole MMS PDU, or why they do not; what is inside is not looked at."""
+    if not octets:
+        return Fault("mms", "an empty presentation data value")
     if octets[0] not in PDU_TAGS:
         return Fault("mms", f"{octets[0]:02X} begins no MMS PDU")
     try:
