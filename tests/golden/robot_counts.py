@@ -22,7 +22,7 @@ ARM = {"name": "R_ARM", "control": "CONTROLLED", "domains": ["R_ARM"], "deletabl
 CALIBRATION = {"name": "R_CAL", "control": "NORMAL", "domains": ["R_CAL"], "deletable": False}
 TASK = {"name": "TASK", "control": "CONTROLLING", "domains": ["TASK"], "deletable": False}
 TOKEN = ("one_holder", "holder_is_associated")
-LARGEST = 60_000
+LARGEST = 120_000
 
 Counts = tuple[int, int, int]
 """States, steps that change the state, steps to the farthest state."""
@@ -44,12 +44,13 @@ class Small:
 
 SMALL: Mapping[str, Small] = {
     "token": Small({"Client": 2}, {"predefined": []}, TOKEN),
-    "tokens": Small({"Client": 3}, {"predefined": [], "associations": "multiple"}, TOKEN),
+    "tokens": Small({"Client": 2}, {"predefined": [], "associations": "multiple"}, TOKEN),
     "panel": Small({"PI": 1}, {"predefined": []}, ("local_control_logical",), ("repaired",)),
-    "arm": Small({"PI": 1}, {"predefined": [ARM]}),
-    "calibration": Small({"PI": 1}, {"predefined": [CALIBRATION]}),
-    "pair": Small({"PI": 2}, {"predefined": [ARM]}, counted=False),
-    "task": Small({"PI": 1}, {"predefined": [TASK], "selected_at_power_on": "TASK"}),
+    "arm": Small({"PI": 1}, {"predefined": [ARM]}, ("arm_moves_arm",)),
+    "device": Small({"PI": 1, "Device": 1}, {"predefined": [ARM]}),
+    "calibration": Small({"PI": 1, "Device": 0}, {"predefined": [CALIBRATION]}),
+    "task": Small({"PI": 1, "Device": 0}, {"predefined": [TASK], "selected_at_power_on": "TASK"}),
+    "pair": Small({"PI": 2, "Device": 0}, {"predefined": [ARM]}, counted=False),
 }
 COUNTED = [(variant, name) for name, small in SMALL.items() for variant in small.variants if small.counted]
 

@@ -18,7 +18,7 @@ from mmsverify.symbolic.states import ClosedWorld, Enumerator
 
 BENCH = Path(__file__).parents[2] / "bench"
 QUICK = [key for key in COUNTED if key[1] in ("token", "tokens", "panel")]
-MANY = [key for key in COUNTED if key[1] == "arm"] + [("as-written", "calibration")]
+MANY = [key for key in COUNTED if key[1] == "arm"]
 CORES = ("as-written", "repaired", "repaired-motion")
 
 
