@@ -229,6 +229,7 @@ class ProgramsRepaired(Programs, VocabularyRepaired):
         when=[state[pi] == State.RUNNING],
         then=[
             calibration[r].becomes(Calibration.NOT_CALIBRATED).over(r).when(destructive & calibrates_device[pi, r]),
+            joint_calibration[r, j].becomes(Calibration.NOT_CALIBRATED).over(r, j).when(destructive & calibrates_device[pi, r]),
             state[c].becomes(State.STOPPED).over(c).when(destructive & selected[pi] & controls[pi, c] & (state[c] == State.RUNNING)),
             state[pi].becomes(if_(destructive, State.UNRUNNABLE, State.STOPPED)),
             controller[c, a].becomes(False).over(c, a).when(destructive & selected[pi] & (a == pi)),

@@ -58,6 +58,7 @@ class Properties(Vocabulary):
             RobotState.READY,
             if_(some_controlling(), RobotState.LOADED, RobotState.IDLE),
         ),
+        "R-6.3.5.1-1",
     )
     selected_predefined = Assume(
         "R-6.3.5.4-3",

@@ -20,7 +20,7 @@ from .vocabulary import Control, Logical, Physical, RobotState, State, Vocabular
 class PropertiesRepaired(Properties, VocabularyRepaired):
     """The repaired reading."""
 
-    robot_at_power_on = Initially("R-6.3.5.2-2", ~intervention(),
+    robot_at_power_on = Initially("R-6.3.5.2-2", ~intervention(), "R-6.3.5.1-1",
                                   repairs=repaired("RP-12", "R-6.3.5.2-2", because="the robot state follows from the rest"))  # fmt: skip
     ready_controls_arm = Always(
         "R-6.3.4.4-1", for_all(a, c)(((robot_state() == RobotState.READY) & arm[c] & controller[c, a]) >> selected[a]),

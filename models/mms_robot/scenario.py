@@ -33,6 +33,7 @@ def scenario(
         "Domain": domain_names(predefined, sizes.get("Domain", 0)),
         "Upload": tuple(f"upload{i + 1}" for i in range(sizes.get("Upload", 0))),
         "Device": _devices(_arms(profile), sizes),
+        "Joint": tuple(f"joint{i + 1}" for i in range(sizes.get("Joint", 1))),
     }
     facts: dict[tuple[str, tuple[str, ...]], Any] = {
         ("step_limited", ()): bool(profile.get("step_limited", True)),
@@ -42,7 +43,8 @@ def scenario(
         entry = next((e for e in predefined if e["name"] == name), None)
         facts |= attributes(name, entry, profile)
         facts |= _calibrates(name, entry, elements["Device"], _arms(profile))
-    facts |= {("needs_calibration", (arm,)): True for arm in _arms(profile) if arm in elements["Device"]}
+    for arm in set(_arms(profile)).intersection(elements["Device"]):
+        facts |= {("needs_calibration", (arm,)): True, ("jointed", (arm,)): True}
     return elements, facts | domain_facts(elements["Domain"], elements["PI"], predefined)
 
 

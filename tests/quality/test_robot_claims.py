@@ -66,7 +66,7 @@ BROKEN = {
 }
 
 
-EVERY_SCOPE = "any number of PI, Client, Request, Domain, Upload, Device"
+EVERY_SCOPE = "any number of PI, Client, Request, Domain, Upload, Device, Joint"
 
 
 def check(variant: str) -> ModelCheck:
