@@ -73,7 +73,9 @@ class DeviceProperties(Vocabulary):
         says="nobody at the panel stops or modifies a task program without local control")  # fmt: skip
     local_state_changes = Sometimes("R-T1-N", local_control() & (robot_state().next != robot_state()))
     remote_has_control = Sometimes("R-5.3.1.4-4", ~local_control() & for_some(u)(holder[u]))
-    nobody_has_control = Sometimes("R-6.1.3.2.5-2", ~local_control() & for_some(p)(selected[p] & runs[p]) & ~for_some(u)(holder[u]))
+    nobody_has_control = Sometimes(
+        "R-6.1.3.2.5-2", ~local_control() & for_some(p)(selected[p] & runs[p]) & ~for_some(u)(holder[u])
+    )
     stopped_in_local_control = Sometimes(
         "R-T8-2", service_is("vMDStop") & answered(PLUS) & local_control().next
     )

@@ -44,6 +44,7 @@ class Devices(Vocabulary):
     # A resource without a calibration program of its own is calibrated in some way that no message shows.
     has_calibrator = Derived(for_some(p)(calibrates_device[p, r]), over=[r])
     unfinished = Derived(for_some(p)(calibrates_device[p, r] & started[p]), over=[r])
+    still_calibrating = Derived(unfinished[r] & (calibration[r] == Calibration.CALIBRATING), over=[r])
     in_calibration = Derived(for_some(p)(calibrates_device[p, r] & runs[p]), over=[r])
 
     # Which joints are calibrated while an arm is not: some, but not all.
@@ -72,7 +73,7 @@ class Devices(Vocabulary):
     violated = Device.some("violated")
     found = if_(
         found_calibrated.has(r) & ~unfinished[r], Calibration.CALIBRATED,
-        if_(found_calibrating.has(r) & (unfinished[r] | ~has_calibrator[r]), Calibration.CALIBRATING, Calibration.NOT_CALIBRATED),
+        if_(found_calibrating.has(r) & (still_calibrating[r] | ~has_calibrator[r]), Calibration.CALIBRATING, Calibration.NOT_CALIBRATED),
     )  # fmt: skip
     devices_change = Transition(
         "R-6.1.3.2.1-1", "R-6.2.2.3-1", "R-6.2.3.3-1", "R-6.3.6-1", "R-6.1.3.2.3-1", "R-6.1.3.2.4-1", "RP-18",

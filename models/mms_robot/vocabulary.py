@@ -167,7 +167,7 @@ class Vocabulary(Model):
     calibration = Variable(Calibration, Device, doc="means something where it needs calibration",
                            cites=["R-6.2.2.1-1", "R-6.2.3.1-1"])  # fmt: skip
     joint_calibration = Variable(Calibration, (Device, Joint), doc="of each joint of an arm (6.2.2.8.2.2)",
-                                 cites=["R-6.2.2.8.2.2-1"])  # fmt: skip
+                                 cites=["R-6.2.2.1-2"])  # fmt: skip
     device_local = Relation(Device, doc="some local agent holds control of the resource (6.2.2.2, 6.2.3.2)",
                             cites=["R-6.2.2.1-1", "R-6.2.3.1-1"])  # fmt: skip
     any_power = Relation(doc="any physical resource power on (6.1.3.2.3)")

@@ -39,6 +39,7 @@ BROKEN = {
     "loaded-has-controlling": 3,
     "loading-is-bound": 3,
     "local-devices-are-not-changed": 3,
+    "none-without-task": 4,
     "one-download": 6,
     "one-holder": 3,
     "only-existing-use": 4,
