@@ -3,6 +3,7 @@
 from mmsverify.model import (
     PLUS,
     Always,
+    Assume,
     Derived,
     Initially,
     Step,
@@ -25,6 +26,9 @@ class PropertiesRepaired(Properties, VocabularyRepaired):
     ready_controls_arm = Always(
         "R-6.3.4.4-1", for_all(a, c)(((robot_state() == RobotState.READY) & arm[c] & controller[c, a]) >> selected[a]),
         repairs=repaired("RP-12", "R-6.3.4.4-1", because="an arm is not required in the list; if it is controlled, then by the selected one"))  # fmt: skip
+
+    list_of_selected = Assume("R-7.4.4.2-i", for_all(a, c)(predefined_controls[a, c] >> selected_at_power_on[a]), "R-7.4.4.2-f2",
+                              repairs=repaired("RP-30", "R-7.4.4.2-i", because="the list of one that is not selected would stand for ever, and keep it from being selected"))  # fmt: skip
 
     lists_end = Always("R-6.3.2.3-1", for_all(a, c)(controls[a, c] >> (exists[a] & (control[a] == Control.CONTROLLING))),
                        says="only an existing CONTROLLING program invocation has a list",

@@ -38,14 +38,24 @@ def scenario(
     facts: dict[tuple[str, tuple[str, ...]], Any] = {
         ("step_limited", ()): bool(profile.get("step_limited", True)),
         ("single_association", ()): profile.get("associations", "single") == "single",
+        ("single_task", ()): bool(profile.get("single_task", False)),
     }
     for name in elements["PI"]:
         entry = next((e for e in predefined if e["name"] == name), None)
         facts |= attributes(name, entry, profile)
+        listed = () if entry is None else entry.get("controlled", ())
+        facts |= {("predefined_controls", (name, each)): each in listed for each in elements["PI"]}
         facts |= _calibrates(name, entry, elements["Device"], _arms(profile))
     for arm in set(_arms(profile)).intersection(elements["Device"]):
         facts |= {("needs_calibration", (arm,)): True, ("jointed", (arm,)): True}
     return elements, facts | domain_facts(elements["Domain"], elements["PI"], predefined)
+
+
+def named(profile: Mapping[str, Any]) -> dict[str, int]:
+    """How many elements of each sort a profile names."""
+    predefined = profile.get("predefined", DEFAULT)
+    domains = {str(d) for entry in predefined for d in entry.get("domains", ())}
+    return {"PI": len(predefined), "Domain": len(domains), "Device": len(_arms(profile))}
 
 
 def domain_names(predefined: Sequence[Mapping[str, Any]], size: int) -> tuple[str, ...]:

@@ -124,10 +124,14 @@ class Vocabulary(Model):
     predefined_deletable = Relation(PI, rigid=True, doc="can be deleted by MMS")
     predefined_reusable = Relation(PI, rigid=True)
     predefined_arm = Relation(PI, rigid=True, doc="is bound to a domain of a robot arm")
+    predefined_controls = Relation(PI, PI, rigid=True, doc="the list of a names c at power-on")
     selected_at_power_on = Relation(PI, rigid=True)
     calibrates = Relation(PI, rigid=True, doc="R_CAL, the calibration program (6.3.6, 8.3.2)")
     standard_arm = Relation(PI, rigid=True, doc="R_ARM, the arm program by its standardized name (8.3.1)")
     step_limited = Relation(rigid=True, doc="STEP-LIMITED is supported (PICS part 6)")
+    single_task = Relation(
+        rigid=True, doc="holds one task program: load and assign are one operation (5.3.1.3.3.4)"
+    )
     single_association = Relation(rigid=True, doc="base class: one association, which holds R_CTRL")
     calibrates_device = Relation(
         PI, Device, rigid=True, doc="the calibration program is for this physical resource"
@@ -239,6 +243,7 @@ class Vocabulary(Model):
     kind = parameter("kind", Control)
     reuse = parameter("reuse", BOOL)
     binds_arm = parameter("binds_arm", BOOL)
+    assigned = PI.some("assigned")
     location_given = parameter("location_given", BOOL)
     limit = optional("limit", Mode)
     count = parameter("count", integer())
@@ -261,6 +266,12 @@ class Vocabulary(Model):
     held = Device.some("held")
     calibrated_joints = Joint.some("calibrated_joints")
     step_fails = parameter("step_fails", BOOL)
+
+    # With a predefined CONTROLLING program invocation there is no ROBOT-IDLE at power-on (6.3.5.2), and never one
+    # if it cannot be deleted.
+    never_idle = for_some(p)(
+        predefined[p] & (predefined_control[p] == Control.CONTROLLING) & ~predefined_deletable[p]
+    )
 
     exists = Derived(state[p] != State.NON_EXISTENT, over=[p])
     some_controlling = Derived(
