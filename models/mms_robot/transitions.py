@@ -40,6 +40,8 @@ class Transitions(Vocabulary):
     before, later = robot_state(), robot_state().next
     is_task = control[pi] == Control.CONTROLLING
 
+    changed_in_local_control = Sometimes("R-T1-N", local_control() & local_control().next & (before != later))
+
     # Load and Clear (5.3.1.3.3.2, .3; 6.3.5.2, .3).
     load_makes_loaded = Step(
         "R-5.3.1.3.3.2-2",
