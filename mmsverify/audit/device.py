@@ -159,6 +159,7 @@ class Device:
             return
         yield from contents.judge(asked.pdu)
         if asked.side == "client":
+            self._transfers.requested(association.name, asked)
             yield from self._performing.requested(association.name, asked)
         else:
             yield from self._transfers.asked_by_robot(association.name, asked, message)

@@ -29,6 +29,20 @@ class Transfers:
     def __init__(self, belief: Belief, telling: Telling) -> None:
         self._belief = belief
         self._telling = telling
+        self._beginning: dict[str, str] = {}
+
+    def requested(self, association: str, asked: Asked) -> None:
+        """A client asks for an upload, or for more of it; it may be performed at once, and answered later.
+
+        An upload that is to begin has no number yet.
+        """
+        service = str(asked.pdu.service)
+        if service == "initiateUploadSequence":
+            self._beginning[asked.slot] = asked.pdu.body
+        elif service in UPLOADING:
+            upload = f"{association}#{asked.pdu.body}"
+            bindings = {"request": asked.slot, "user": association, "upload": upload, "panel": False}
+            self._belief.indicate(asked.slot, service, bindings)
 
     def asked_by_robot(self, association: str, asked: Asked, message: TraceMessage) -> Iterator[Finding]:
         """A request of the robot: it says that a download is going on."""
@@ -53,6 +67,7 @@ class Transfers:
     def uploaded(self, association: str, asked: Asked, pdu: Pdu, message: TraceMessage) -> Iterator[Finding]:
         """The robot's answer to one of the three upload services."""
         service = str(asked.pdu.service)
+        self._beginning.pop(asked.slot, None)
         accepted = pdu.kind == "confirmed-ResponsePDU"
         bindings = {"request": asked.slot, "user": association, **_upload(association, asked.pdu, pdu)}
         if "upload" not in bindings:
@@ -63,8 +78,11 @@ class Transfers:
         yield from self._telling.outcome(message, service, answer, outcome, (asked.index,))
 
     def attributes(self, asked: Asked, pdu: Pdu, message: TraceMessage) -> Iterator[Finding]:
-        """The answer to GetDomainAttributes."""
+        """The answer to GetDomainAttributes: nothing certain while an upload of the domain may just begin."""
         domain, answer = asked.pdu.body, ""
+        if domain in self._beginning.values():
+            self._belief.drop(asked.slot)
+            return
         if pdu.kind == "confirmed-ResponsePDU":
             call = shown_of_domain(domain, pdu.body)
         elif pdu.kind == "confirmed-ErrorPDU" and robot.failure(pdu).unknown_object:

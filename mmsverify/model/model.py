@@ -267,7 +267,6 @@ def _claims(declared: Mapping[str, Declared], definitions: Definitions) -> Itera
                 claim.clause,
                 expand(claim.formula, definitions),
                 claim.says,
-                provided=expand(claim.provided, definitions),
                 place=claim.place,
             )
 

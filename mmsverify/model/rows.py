@@ -116,10 +116,7 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Claim:
-    """A property of the model: of every state, of some reachable state, or of every step.
-
-    ``provided`` speaks of rigid variables: under a profile in which it fails, a ``sometimes`` is not asked.
-    """
+    """A property of the model: of every state, of some reachable state, or of every step."""
 
     name: str
     kind: Literal["always", "sometimes", "step"]
@@ -127,7 +124,6 @@ class Claim:
     formula: Expr
     says: str = ""
     assists: bool = False
-    provided: Expr = ex.TRUE
     place: str = field(default="", compare=False)
 
     @property

@@ -54,10 +54,11 @@ def beginning(model: ModelData, profile: Mapping[str, Any], sizes: Mapping[str, 
 class Chance:
     """Throws the dice for one conversation."""
 
-    def __init__(self, talk: Talk, seed: int, *, gaps: bool = True) -> None:
+    def __init__(self, talk: Talk, seed: int, *, calm: bool = False) -> None:
+        """``calm``: one request at a time, and no message is lost."""
         self.talk, self.random = talk, Random(seed)
         self.model, self.scope = talk.model, talk.scope
-        self.gaps = gaps
+        self.calm = calm
         rows = talk.model.actions
         asked = (r for r in rows if r.on.phase == "response" and self._can_be_named(r))
         self.services = sorted({r.on.service for r in asked} - ASSOCIATING.keys() - FROM_ROBOT)
@@ -83,12 +84,14 @@ class Chance:
     def act(self) -> None:
         """One thing happens, or none."""
         acts: list[tuple[int, Callable[[], Any]]] = [
-            (10, self.exchange), (8, self.ask), (12, self.perform), (12, self.answer), (8, self.unseen),
-            (2, self.tell), (3, self.panel), (1, self.leave), (6, self.serve),
+            (10, self.exchange), (8, self.unseen), (2, self.tell), (3, self.panel), (1, self.leave),
+            (6, self.serve),
         ]  # fmt: skip
+        if not self.calm:
+            acts += [(8, self.ask), (12, self.perform), (12, self.answer)]
         if not self.talk.open or self.random.random() < 0.05:
             self.join()
-        elif self.gaps and self.random.random() < (0.2 if self.talk.lost_from is not None else 0.003):
+        elif not self.calm and self.random.random() < (0.2 if self.talk.lost_from is not None else 0.003):
             self.talk.do(Act("gap", what="begin" if self.talk.lost_from is None else "end"))
         else:
             self.random.choices([act for _, act in acts], [weight for weight, _ in acts])[0]()

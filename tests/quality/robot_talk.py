@@ -7,21 +7,22 @@ and what remains is conforming by its making.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+
+from robot_recording import Link, Message, Said, write
 
 from mmsverify.audit import robot as adapter
 from mmsverify.checking import domain_messages
 from mmsverify.checking import robot_messages as messages
 from mmsverify.checking.robot_trace import profile_of
 from mmsverify.concrete import Scope
-from mmsverify.concrete.evaluate import Valuation, step, within_bounds
+from mmsverify.concrete.evaluate import Moment, Valuation, step, updated, within_bounds
 from mmsverify.concrete.trace_path import readable, readable_state
-from mmsverify.formats.mcap_write import TraceWriter
 from mmsverify.formats.mms import Pdu, decode, encode
-from mmsverify.formats.trace import Channel, LinkEvent, Sender
+from mmsverify.formats.trace import Sender
 from mmsverify.model import ModelData, Row
 from mmsverify.model.rows import PLUS
 from mmsverify.model.sorts import EnumSort
@@ -29,11 +30,11 @@ from mmsverify.results import PathStep
 from mmsverify.samples import pdus
 from mmsverify.samples.cell import OFFERED, ROBOT_ADDITIONAL
 
-VMD = "robot"
 ARMS = frozenset({"R_ARM"})
+"""The domains of an arm, where a program invocation of an arm is predefined."""
+
 OUTSTANDING = 5
 SERVICES = (*OFFERED["server"], "loadDomainContent", "storeDomainContent")
-BEGIN, PAUSE = 1_764_000_000_000_000_000, 10_000_000
 ASSOCIATING = {"initiate": "open", "release": "close"}
 """Rows that answer to no confirmed request, and the act that performs each."""
 
@@ -75,26 +76,6 @@ class Act:
         return " ".join(part for part in (self.kind, self.who, self.what, shown) if part)
 
 
-@dataclass(frozen=True, slots=True)
-class Link:
-    """An event of a connection."""
-
-    connection: str
-    event: LinkEvent
-
-
-@dataclass(frozen=True, slots=True)
-class Said:
-    """A message on an association."""
-
-    association: str
-    sender: Sender
-    pdu: Pdu
-
-
-Message = Link | Said
-
-
 @dataclass
 class Pending:
     """A request on its way, and its answer once the robot has decided."""
@@ -119,6 +100,8 @@ class Talk:
         self.lost_from: int | None = None
         self._ids: dict[str, int] = {}
         self._start = start
+        bound = (key for key, held in start.items() if key[0] == "predefined_arm" and held)
+        self.arms = ARMS if any(start["predefined", key[1]] for key in bound) else frozenset()
         self._rows: dict[tuple[str, str], list[Row]] = {}
         for row in model.rows:
             self._rows.setdefault((row.on.phase, row.on.service), []).append(row)
@@ -188,19 +171,25 @@ class Talk:
     def _ask(self, act: Act) -> bool:
         """A request arrives; its indication takes effect where the model has one that applies."""
         user, slot = str(act.given["user"]), act.who
-        if user not in self.open or slot in self.pending:
+        if user not in self.open or slot in self.pending or self._unheard(act):
             return False
         invoke_id = self._id(user)
         given = {name: readable(held) for name, held in act.given.items()}
+        given["binds_arm"] = given.get("binds_arm", False) and bool(self.arms)
         asked = decode(encode(messages.request(invoke_id, act.what, given)))
         self._say(user, "client", asked)
-        call = adapter.performed(asked, ARMS)
+        call = adapter.performed(asked, self.arms)
         bindings = {"request": slot, "user": user, **(call.bindings if call else act.given)}
         for row in self.rows("indication", act.what):
             if self._take(row, self.bindings(row, bindings)):
                 break
         self.pending[slot] = Pending(user, invoke_id, act.what, bindings)
         return True
+
+    def _unheard(self, act: Act) -> bool:
+        """Whether it speaks of an upload whose number the client has not been told yet."""
+        begun = (p for p in self.pending.values() if p.service == "initiateUploadSequence")
+        return "upload" in act.given and any(p.asked["upload"] == act.given["upload"] for p in begun)
 
     def bindings(self, row: Row, known: Mapping[str, Any]) -> dict[str, Any]:
         """The parameters of a row that are known, as values of the model."""
@@ -224,9 +213,20 @@ class Talk:
         row = next((r for r in self.rows("response", request.service) if row_name(r) == act.what), None)
         if row is None or not self._take(row, {**act.given, **self.bindings(row, request.asked)}):
             return False
+        self._decide(request, row)
+        return True
+
+    def _decide(self, request: Pending, row: Row) -> None:
         said = {name: readable(held) for name, held in request.asked.items()}
         request.answer = messages.answer(request.invoke_id, request.service, said, row.answer, self.shown())
-        return True
+
+    def break_rule(self, slot: str, row: Row, hidden: Mapping[str, Any]) -> None:
+        """The robot acts by a row without asking its guard, and answers so: it does not conform any more."""
+        request = self.pending[slot]
+        bindings = {**hidden, **self.bindings(row, request.asked)}
+        self.state = updated(row, Moment(self.scope, self.state, bindings))
+        self._decide(request, row)
+        self._answer(Act("answer", slot))
 
     def _answer(self, act: Act) -> bool:
         request = self.pending.get(act.who)
@@ -286,6 +286,11 @@ class Talk:
 
     # What is seen.
 
+    def look_round(self, user: str) -> None:
+        """All that messages can show is shown, on one association."""
+        for service, given in self.views():
+            self._look(Act("look", user, service, given))
+
     def _look(self, act: Act) -> bool:
         """State is asked for and shown at once."""
         if act.who not in self.open:
@@ -302,14 +307,14 @@ class Talk:
             yield view, self._looked(Pending("", 0, service, given))
 
     def views(self) -> Iterator[tuple[str, dict[str, Any]]]:
-        """Every request that shows something of the state."""
-        yield "status", {}
+        """Every request that shows something of the state; Status, which tells what is admitted, last."""
         yield "reportSemaphoreStatus", {}
         for name in self.scope.elements["PI"]:
             yield "getProgramInvocationAttributes", {"pi": name}
         for name in self.scope.elements["Domain"]:
             yield "getDomainAttributes", {"domain": name}
         yield "read", {"variables": tuple(sorted(self.variables()))}
+        yield "status", {}
 
     def _looked(self, request: Pending) -> Pdu:
         shown, invoke_id = self.shown(), request.invoke_id
@@ -350,23 +355,6 @@ class Talk:
     def write(self, path: Path, begin: int = 0) -> Path:
         """The recording from message ``begin`` on."""
         return write(path, self.profile(), self.messages[begin : self.lost_from])
-
-
-def write(path: Path, profile: Mapping[str, str], spoken: Iterable[Message]) -> Path:
-    """Messages as a recording of the device ``robot``."""
-    with TraceWriter(path) as trace:
-        trace.add_profile(profile)
-        for number, message in enumerate(spoken):
-            channel, data = _recorded(message)
-            trace.add(BEGIN + number * PAUSE, channel, data)
-    return path
-
-
-def _recorded(message: Message) -> tuple[Channel, bytes]:
-    if isinstance(message, Said):
-        return Channel.mms(VMD, message.association, message.sender), encode(message.pdu)
-    said = f'{{"connection": "{message.connection}", "event": "{message.event}", "role": "mms"}}'
-    return Channel.link(VMD), said.encode()
 
 
 def row_name(row: Row) -> str:

@@ -13,7 +13,7 @@ from mmsverify.formats.mms import Pdu
 from mmsverify.results import Audit
 from mmsverify.samples import pdus
 from mmsverify.samples.cell import ARM, OFFERED, ROBOT_ADDITIONAL, Cell
-from mmsverify.samples.pdus import controlled, controlling, initiation
+from mmsverify.samples.pdus import controlled, controlling, initiation, of_domain
 from mmsverify.samples.recording import Recording
 
 LOADED, READY, EXECUTING = "robot-loaded", "robot-ready", "robot-executing"
@@ -197,4 +197,38 @@ def test_an_answer_may_show_the_state_from_before_another_answer_showed_more(lis
     early = made.ask("getProgramInvocationAttributes", "JOB")
     made.attributes("JOB", "idle", pdus.NORMAL)  # it has come to its end
     made.answer(early, "getProgramInvocationAttributes", pdus.attributes("running", ["JOB"]), pdus.NORMAL)
+    assert rules(listen(made.recording)) == []
+
+
+def test_a_device_in_local_control_shows_that_somebody_took_it(listen: Listen) -> None:
+    made = cell()
+    made.read(("R_VLOCAL", ("boolean", False)))
+    made.read((of_domain(ARM, "R_DLOCAL"), ("boolean", True)))
+    assert rules(listen(made.recording)) == []
+
+
+def test_a_segment_may_have_been_handed_over_before_its_upload_was_ended(listen: Listen) -> None:
+    made = cell()
+    made.call("initiateUploadSequence", ARM, gives={"ulsmID": 1, "listOfCapabilities": []})
+    segment = made.ask("uploadSegment", 1)
+    made.call("terminateUploadSequence", 1)
+    made.answer(segment, "uploadSegment", {"loadData": ("non-coded", b"END"), "moreFollows": False})
+    assert rules(listen(made.recording)) == []
+
+
+def test_a_domain_may_show_an_upload_whose_beginning_is_not_answered_yet(listen: Listen) -> None:
+    made = cell()
+    made.download("JOB", [b"END"])
+    made.domain("JOB", "ready", [])
+    begun = made.ask("initiateUploadSequence", "JOB")
+    gives = {
+        "listOfCapabilities": [],
+        "state": 2,
+        "mmsDeletable": True,
+        "sharable": False,
+        "listOfProgramInvocations": [],
+        "uploadInProgress": 1,
+    }
+    made.call("getDomainAttributes", "JOB", gives=gives)
+    made.answer(begun, "initiateUploadSequence", {"ulsmID": 1, "listOfCapabilities": []})
     assert rules(listen(made.recording)) == []

@@ -34,6 +34,9 @@ Reached = tuple[Partial, History]
 PANEL = "panel"
 PERFORMED = "performed"
 CONTROL: Key = ("local_control", ())
+SHOWS_CONTROL = frozenset({"local_control", "device_local"})
+"""The variables of which any tells whether somebody at the panel holds control."""
+
 LARGEST = 300
 LARGEST_MEMO = 20000
 MOST_ROUNDS = 6
@@ -202,7 +205,8 @@ class Unseen:
 
     def _field(self, evidence: Evidence, asked: tuple[Outstanding, ...], goal: Goal) -> Field:
         # RP-18: local control was TRUE only where the recording shows it; it does not come and go unseen.
-        control = bool(self.constraints.world.spots.get(CONTROL, 0) & goal.reads)
+        world = self.constraints.world
+        control = bool(world.mask(SHOWS_CONTROL & world.full.keys()) & goal.reads)
         key = (evidence, asked, control)
         if key not in self._fields:
             rows = [r for r in self._rows[evidence] if control or CONTROL[0] not in r.writes]
