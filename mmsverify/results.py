@@ -92,13 +92,24 @@ class Verdict:
 
 
 @dataclass(frozen=True, slots=True)
+class ProfileFinding:
+    """What a profile breaks: the rule of the check, the statements, how bad it is, the sentence about it."""
+
+    rule: str
+    clauses: tuple[str, ...]
+    severity: Severity
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
 class ModelCheck:
-    """All verdicts of one model in one variant."""
+    """All verdicts of one model in one variant, and what the profile that was given breaks."""
 
     model: str
     variant: str
     verdicts: Sequence[Verdict]
     notes: Sequence[str] = ()
+    profile: Sequence[ProfileFinding] = ()
 
 
 @dataclass(frozen=True, slots=True)

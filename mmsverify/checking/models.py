@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 from mmsverify.checking import verdicts
+from mmsverify.checking.profile_facts import applies, assumed
 from mmsverify.checking.proofs import Proofs
 from mmsverify.checking.request import Progress, Request, require_known, require_sorts
 from mmsverify.checking.runs import Explorer
@@ -13,9 +15,9 @@ from mmsverify.checking.worlds import World, small_worlds
 from mmsverify.model.load import load, names
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Claim
-from mmsverify.profiles import load_profile
+from mmsverify.profiles import ROBOT_TABLE, judge, load_profile, stated
 from mmsverify.resources import models_dir
-from mmsverify.results import ModelCheck, Verdict
+from mmsverify.results import ModelCheck, ProfileFinding, Verdict
 from mmsverify.symbolic.overlap import Coverage
 
 FIRST_LOOK, SECOND_LOOK, LONG_LOOK, WHOLE_SCOPE = 40_000, 100_000, 400_000, 200_000
@@ -47,15 +49,26 @@ def check_models(
     checks = []
     for model in loaded:
         sizes = None if scope is None else {s.short: scope.get(s.short, 1) for s in model.sorts.values()}
-        request = Request(properties, sizes, unbounded, depth, timeout, tables.get(model.name))
+        table = tables.get(model.name)
+        judged = _judged(profile, model, table)
+        request = Request(properties, sizes, unbounded, depth, timeout, table, judged)
         if not properties or any(map(request.asks_for, model.claims)):
             checks.append(check_model(model, request, progress))
     return checks
 
 
+def _judged(
+    profile: Path | None, model: ModelData, table: Mapping[str, Any] | None
+) -> Sequence[ProfileFinding]:
+    """What a robot's profile breaks by itself; of other models' tables there is nothing to judge."""
+    if profile is None or table is None or model.name != ROBOT_TABLE:
+        return ()
+    return judge(table, stated(profile, model.name))
+
+
 def check_model(model: ModelData, request: Request, progress: Progress = None) -> ModelCheck:
     """The verdicts of one model."""
-    claims = [claim for claim in model.claims if request.asks_for(claim)]
+    claims = [claim for claim in model.claims if request.asks_for(claim) and _made_of(model, claim, request)]
     check = _Check(model, request, progress)
     if request.sizes is None:
         check.without_bounds(claims)
@@ -63,7 +76,14 @@ def check_model(model: ModelData, request: Request, progress: Progress = None) -
         check.within(World(request.sizes, request.profile or {}), claims)
     found = [check.verdict(claim) for claim in claims]
     notes = [*_notes(model, request), *check.coverage()]
-    return ModelCheck(model.name, model.variant, found, tuple(notes))
+    return ModelCheck(model.name, model.variant, found, tuple(notes), request.judged)
+
+
+def _made_of(model: ModelData, claim: Claim, request: Request) -> bool:
+    """Whether the claim is made of robots with the profile asked for; without one, every claim is."""
+    if request.profile is None:
+        return True
+    return all(applies(model, claim, world.scope(model)) for world in small_worlds(model, request.profile))
 
 
 def _notes(model: ModelData, request: Request) -> Iterator[str]:
@@ -79,7 +99,7 @@ class _Check:
 
     def __init__(self, model: ModelData, request: Request, progress: Progress) -> None:
         self.model, self.request, self.progress = model, request, progress
-        self.proofs = Proofs(model, request.timeout)
+        self.proofs = Proofs(model, request.timeout, assumed(model, request.profile))
         self.explorer = Explorer(model, request, progress)
         self.refuted: set[str] = set()
 

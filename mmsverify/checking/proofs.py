@@ -7,6 +7,7 @@ from typing import Literal
 
 from mmsverify.concrete.machine import speaks_of_steps
 from mmsverify.model import expr as ex
+from mmsverify.model.expr import Expr
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Claim
 from mmsverify.symbolic.induction import Obstacle, Prover
@@ -19,8 +20,9 @@ QUERY_SECONDS = 10.0
 class Proofs:
     """What has been proved of one model so far. What is known is given to every later attempt."""
 
-    def __init__(self, model: ModelData, timeout: float | None = None) -> None:
+    def __init__(self, model: ModelData, timeout: float | None = None, assumed: Sequence[Expr] = ()) -> None:
         self.model = model
+        self.assumed = list(assumed)
         self.timeout = min(QUERY_SECONDS, timeout or QUERY_SECONDS)
         self.invariants: list[Claim] = []
         self.proved: set[str] = set()
@@ -29,7 +31,7 @@ class Proofs:
 
     def attempt(self, claims: Sequence[Claim]) -> None:
         """Prove the largest inductive part of the claims, given what is known already."""
-        known = [claim.formula for claim in self.invariants]
+        known = [*self.assumed, *(claim.formula for claim in self.invariants)]
         outcome = Prover(self.model, timeout=self.timeout, facts=known).prove(claims)
         self.proved |= outcome.proved
         self.invariants += [c for c in claims if c.kind == "always" and c.name in outcome.proved]

@@ -10,6 +10,7 @@ from typing import Any
 from mmsverify.errors import UsageError
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Claim
+from mmsverify.results import ProfileFinding
 
 Progress = Callable[[str], None] | None
 
@@ -19,7 +20,7 @@ class Request:
     """``sizes``: elements of each sort (a bounded check); ``unbounded``: no search for counterexamples.
 
     ``depth`` bounds the steps of a search; ``timeout`` is in seconds, for each property; ``profile`` is
-    the model's table of a profile, ``None`` where the user gave none.
+    the model's table of a profile, ``None`` where the user gave none, ``judged`` what that table breaks.
     """
 
     properties: Sequence[str] = ()
@@ -28,6 +29,7 @@ class Request:
     depth: int | None = None
     timeout: float | None = None
     profile: Mapping[str, Any] | None = None
+    judged: Sequence[ProfileFinding] = ()
 
     def asks_for(self, claim: Claim) -> bool:
         """Whether the claim is among the properties that are named; where none is, all are."""

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from mmsverify.checking.profile_facts import applies
 from mmsverify.checking.request import Progress, Request
 from mmsverify.checking.worlds import World
 from mmsverify.concrete import Machine, Scope, SearchResult, path_steps, replay, search
@@ -59,7 +60,7 @@ class Explorer:
         """Look for a run that settles each claim, at most ``states`` states a world."""
         for world in worlds:
             scope = world.scope(self.model, few)
-            open_here = [c for c in claims if c.name not in self.runs and self._has_all(scope, c)]
+            open_here = [c for c in claims if c.name not in self.runs and self._concerns(scope, c)]
             for group in alike(self.model, open_here):
                 self._tell(scope, group)
                 self._search(scope, group, states)
@@ -72,8 +73,10 @@ class Explorer:
             for group in alike(self.model, known):
                 self._search(scope, group, states, max(self.runs[c.name].length for c in group) - 1)
 
-    def _has_all(self, scope: Scope, claim: Claim) -> bool:
-        """Whether the scope has elements of every sort that the claim speaks of; else it settles nothing."""
+    def _concerns(self, scope: Scope, claim: Claim) -> bool:
+        """Whether the claim is made of the scope's profile, and elements of all its sorts are there."""
+        if not applies(self.model, claim, scope):
+            return False
         read = (self.model.signatures[name].sorts for name in ex.variables_of(claim.formula))
         return all(scope.names(sort) for sorts in read for sort in sorts if isinstance(sort, ElementSort))
 

@@ -82,9 +82,10 @@ def check(
 
 
 def status(checks: Sequence[ModelCheck]) -> int:
-    """1 where a property is violated, else 3 where one is unknown, else 0."""
+    """1 where a property is violated or a profile has an error, else 3 where one is unknown, else 0."""
     results = {verdict.result for check in checks for verdict in check.verdicts}
-    return 1 if "violated" in results else 3 if "unknown" in results else 0
+    faulty = any(found.severity == "error" for check in checks for found in check.profile)
+    return 1 if faulty or "violated" in results else 3 if "unknown" in results else 0
 
 
 def _scope(text: str | None, unbounded: bool) -> dict[str, int] | None:

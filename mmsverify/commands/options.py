@@ -14,7 +14,9 @@ Output = Annotated[
 Quiet = Annotated[bool, typer.Option("-q", "--quiet", help="No progress and no remarks on stderr.")]
 Profile = Annotated[
     Path | None,
-    typer.Option("--profile", metavar="FILE", help="What the implementer decided (TOML, a table per model)."),
+    typer.Option(
+        "--profile", metavar="FILE|NAME", help="What the implementer decided (TOML, or a shipped profile)."
+    ),
 ]
 VARIANT_HELP = "as-written: the standard's text as it stands; repaired: with its faults mended."
 Variant = Annotated[str, typer.Option("--variant", metavar="as-written|repaired", help=VARIANT_HELP)]

@@ -9,6 +9,7 @@ from typing import Literal
 
 from mmsverify.model import expr as ex
 from mmsverify.model.declare import Declared
+from mmsverify.model.expr import Expr
 from mmsverify.model.place import caller, mistake
 from mmsverify.model.rows import Claim, Clause, Conjunct, Gap, Repair
 from mmsverify.model.terms import Term, formula
@@ -18,6 +19,7 @@ class ClaimSource(Declared):
     """A declaration that becomes a claim."""
 
     kind: Literal["always", "sometimes", "step"]
+    provided: Expr = ex.TRUE
 
     def __init__(
         self, clause: str, condition: Term | bool, *cites: str, says: str = "", repairs: Repair | None = None
@@ -36,7 +38,15 @@ class ClaimSource(Declared):
 
     def claim(self) -> Claim:
         """The claim as plain data."""
-        return Claim(self.name, self.kind, self.clause, self.formula, self.says, place=self.place)
+        return Claim(
+            self.name,
+            self.kind,
+            self.clause,
+            self.formula,
+            self.says,
+            provided=self.provided,
+            place=self.place,
+        )
 
 
 class Always(ClaimSource):
@@ -48,10 +58,24 @@ class Always(ClaimSource):
 class Sometimes(ClaimSource):
     """Holds in some reachable state, or (where it speaks of ``.next``) of some step.
 
-    It stands beside every ``Always``, so that no proof is vacuous.
+    It stands beside every ``Always``, so that no proof is vacuous. ``provided`` says of which profiles it is
+    claimed, where the text excepts some.
     """
 
     kind = "sometimes"
+
+    def __init__(
+        self,
+        clause: str,
+        condition: Term | bool,
+        *cites: str,
+        says: str = "",
+        provided: Term | bool = True,
+        repairs: Repair | None = None,
+    ) -> None:
+        super().__init__(clause, condition, *cites, says=says, repairs=repairs)
+        self.place = caller()
+        self.provided = formula(provided)
 
 
 class Step(ClaimSource):
@@ -77,10 +101,12 @@ class Initially(Declared):
 class Assume(Declared):
     """A fact about what never changes (``rigid`` variables): what a profile must respect."""
 
-    def __init__(self, clause: str, condition: Term | bool, *cites: str) -> None:
+    def __init__(
+        self, clause: str, condition: Term | bool, *cites: str, repairs: Repair | None = None
+    ) -> None:
         self.place = caller()
         self.conjunct = Conjunct(formula(condition), Clause.of(clause, *cites))
-        self.repairs: Repair | None = None
+        self.repairs = repairs
 
 
 class Unspecified(Declared):

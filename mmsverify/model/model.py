@@ -267,6 +267,7 @@ def _claims(declared: Mapping[str, Declared], definitions: Definitions) -> Itera
                 claim.clause,
                 expand(claim.formula, definitions),
                 claim.says,
+                provided=expand(claim.provided, definitions),
                 place=claim.place,
             )
 

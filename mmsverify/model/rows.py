@@ -116,7 +116,10 @@ class Row:
 
 @dataclass(frozen=True, slots=True)
 class Claim:
-    """A property of the model: of every state, of some reachable state, or of every step."""
+    """A property of the model: of every state, of some reachable state, or of every step.
+
+    ``provided`` speaks of rigid variables: under a profile in which it fails, a ``sometimes`` is not asked.
+    """
 
     name: str
     kind: Literal["always", "sometimes", "step"]
@@ -124,6 +127,7 @@ class Claim:
     formula: Expr
     says: str = ""
     assists: bool = False
+    provided: Expr = ex.TRUE
     place: str = field(default="", compare=False)
 
     @property

@@ -9,7 +9,7 @@ from mmsverify.audit.conformance import BASE_CLASS
 from mmsverify.audit.objects import OBJECTS
 from mmsverify.audit.rules import RULES
 from mmsverify.audit.variables import TYPES, VARIABLES
-from mmsverify.profiles import ENTRY, KEYS
+from mmsverify.profiles import CHECKS, KEYS, ROBOT_TABLE
 from mmsverify.register.citations import Cited, citations
 from mmsverify.register.grammar import of_modules
 from mmsverify.resources import asn1_dir
@@ -21,8 +21,8 @@ TABLES: Mapping[str, tuple[tuple[str, Any], ...]] = {
         ("standard object", OBJECTS),
         ("standard type", TYPES),
         ("standard variable", VARIABLES),
-        ("profile key", KEYS["mms-robot"]),
-        ("profile key", ENTRY),
+        ("profile key", KEYS[ROBOT_TABLE]),
+        ("profile check", CHECKS),
     ),
 }
 """By model: what kind of thing each entry of a table is, and the table."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from dataclasses import asdict
 from typing import Any
 
 from mmsverify.report.wording import plain, seconds
@@ -18,11 +19,13 @@ def render(checks: Sequence[ModelCheck]) -> str:
 
 
 def _model(check: ModelCheck) -> dict[str, Any]:
-    model = {
+    model: dict[str, Any] = {
         "model": check.model,
         "variant": check.variant,
         "properties": [_property(verdict) for verdict in check.verdicts],
     }
+    if check.profile:
+        model["profile"] = [plain(asdict(found)) for found in check.profile]
     return model | ({"notes": list(check.notes)} if check.notes else {})
 
 

@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
 from mmsverify.report.wording import assignments, cells, columns, folded, printable, spoken
-from mmsverify.results import ModelCheck, PathStep, Verdict
+from mmsverify.results import ModelCheck, PathStep, ProfileFinding, Verdict
 
 WIDTH = 100
 INDENT = " " * 6
@@ -29,9 +29,16 @@ def _model(check: ModelCheck) -> Iterator[str]:
         yield from _undecided(verdict)
     for verdict in check.verdicts:
         yield from _broken(verdict)
+    if check.profile:
+        yield ""
+        yield from map(_of_profile, check.profile)
     if check.notes:
         yield ""
         yield from (f"note: {printable(note)}" for note in check.notes)
+
+
+def _of_profile(found: ProfileFinding) -> str:
+    return f"profile {found.severity}: {found.rule}: {printable(found.message)} ({' '.join(found.clauses)})"
 
 
 def _summary(check: ModelCheck) -> str:

@@ -17,7 +17,7 @@ from .observations import Observations
 from .programs import Programs, ProgramsRepaired
 from .properties import Properties
 from .properties_repaired import PropertiesRepaired
-from .scenario import scenario
+from .scenario import named, scenario
 from .selection import Selection, SelectionRepaired
 from .services import Services
 from .transitions import Transitions, TransitionsRepaired
@@ -32,7 +32,7 @@ class AsWritten(
     Programs, Selection, Execution, Vmd, Associations, Domains, Devices, Observations,
     Properties, DeviceProperties, Services, Attributes, Figure8, Transitions,
     name="mms-robot", variant="as-written", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
-    consequences=CONSEQUENCES,
+    consequences=CONSEQUENCES, named=named,
 ):  # fmt: skip
     """The text as it stands, faults included."""
 
@@ -41,6 +41,6 @@ class Repaired(
     ProgramsRepaired, SelectionRepaired, ExecutionRepaired, VmdRepaired, AssociationsRepaired, DomainsRepaired, Devices, Observations,
     PropertiesRepaired, DeviceProperties, Services, Attributes, Figure8Repaired, TransitionsRepaired,
     name="mms-robot", variant="repaired", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
-    consequences=CONSEQUENCES,
+    consequences=CONSEQUENCES, named=named,
 ):  # fmt: skip
     """The reading that keeps its own rules."""

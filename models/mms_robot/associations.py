@@ -120,7 +120,8 @@ class Associations(Vocabulary):
         service_is("takeControl") & for_some(v)(holder[v].next & ~holder[v] & associated[v]),
         "R-8.6.1-4",
     )
-    several_are_associated = Sometimes("R-5.1.3-1", for_some(u, v)(associated[u] & associated[v] & (u != v)))
+    several_are_associated = Sometimes("R-5.1.3-1", for_some(u, v)(associated[u] & associated[v] & (u != v)),
+                                       provided=~single_association())  # fmt: skip
 
 
 class AssociationsRepaired(Associations):

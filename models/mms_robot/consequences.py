@@ -49,6 +49,7 @@ CONSEQUENCES = {
     "local_devices_are_not_changed": "Somebody holds the arm at the panel, and a client far away starts to calibrate it.",
     "start_count_positive": "A program is started for no cycle or step at all: what it does then, no two controllers agree.",
     "resume_count_positive": "A program is resumed for no cycle or step at all: what it does then, no two controllers agree.",
+    "none_without_task": "A selected task program is named where no task program is left: a client sends Start to a name that stands for nothing.",
     "figure_8": "The robot changes its state in a way that figure 8 does not show: a client programmed from the figure loses track.",
     "clear_needs_load": "Status falls back to ROBOT-IDLE although no task program was there to be cleared: counts of programs go wrong.",
     "ready_left_by_deassign": "Creating another task program takes READY away from the assigned one: the next Start is answered from a state that "

@@ -1,6 +1,6 @@
 """What the standard claims of physical resources and of what the VMD says of them (6.1.3.2, 6.2, 6.3.6)."""
 
-from mmsverify.model import Always, Sometimes, Step, for_all, for_some, service_is
+from mmsverify.model import PLUS, Always, Sometimes, Step, answered, for_all, for_some, service_is, unchanged
 
 from .properties import BY_MESSAGE
 from .vocabulary import Calibration, Control, RobotState, State, Vocabulary
@@ -25,6 +25,24 @@ class DeviceProperties(Vocabulary):
     local_control_is_held = Always("R-6.1.3.2.5-1", local_control() >> for_some(r)(device_local[r]),
                                    says="the VMD is in local control only if a local agent holds some physical resource")  # fmt: skip
 
+    # An arm is calibrated by its joints (6.2.2.4).
+    arm_calibrated_by_joints = Always(
+        "R-6.2.2.4-1", for_all(r, j)((jointed[r] & needs_calibration[r] & (calibration[r] == Calibration.CALIBRATED))
+                                     >> (joint_calibration[r, j] == Calibration.CALIBRATED)),
+        says="an arm is CALIBRATED only if all its joints are")  # fmt: skip
+    joint_calibrating_is_reported = Always(
+        "R-6.2.2.4-1", for_all(r, j)((jointed[r] & needs_calibration[r] & (joint_calibration[r, j] == Calibration.CALIBRATING))
+                                     >> (calibration[r] == Calibration.CALIBRATING)),
+        says="an arm is CALIBRATING if one of its joints is")  # fmt: skip
+    arm_calibrating_by_joint = Always(
+        "R-6.2.2.4-1", for_all(r)((jointed[r] & needs_calibration[r] & (calibration[r] == Calibration.CALIBRATING))
+                                  >> for_some(j)(joint_calibration[r, j] == Calibration.CALIBRATING)),
+        says="an arm is CALIBRATING only if one of its joints is")  # fmt: skip
+    arm_uncalibrated_by_joint = Always(
+        "R-6.2.2.4-1", for_all(r)((jointed[r] & needs_calibration[r] & (calibration[r] == Calibration.NOT_CALIBRATED))
+                                  >> for_some(j)(joint_calibration[r, j] == Calibration.NOT_CALIBRATED)),
+        says="an arm is NOT-CALIBRATED only if one of its joints is")  # fmt: skip
+
     # Calibration (6.3.6).
     calibrating_while_executing = Always(
         "R-6.3.6-3", for_all(p, r)((calibrates_device[p, r] & runs[p]) >> (calibration[r] == Calibration.CALIBRATING)),
@@ -48,6 +66,20 @@ class DeviceProperties(Vocabulary):
         "R-6.2.1-6", (local_control() & service_is(*BY_MESSAGE) & ~panel & ~destructive) >> for_all(r)(
             (power[r].next == power[r]) & (device_local[r].next == device_local[r]) & (calibration[r].next == calibration[r])),
         says="in local control no service changes the state of a physical resource, nor who holds it")  # fmt: skip
+
+    # In local control and not (5.3.1.4, Table 1, Table 8).
+    panel_needs_local_control = Step(
+        "R-5.3.1.4-3", (panel & ~local_control()) >> unchanged(state, control, controls, controller, selected, motion, mode, cycles, steps),
+        says="nobody at the panel stops or modifies a task program without local control")  # fmt: skip
+    local_state_changes = Sometimes("R-T1-N", local_control() & (robot_state().next != robot_state()))
+    remote_has_control = Sometimes("R-5.3.1.4-4", ~local_control() & for_some(u)(holder[u]))
+    nobody_has_control = Sometimes(
+        "R-6.1.3.2.5-2", ~local_control() & for_some(p)(selected[p] & runs[p]) & ~for_some(u)(holder[u])
+    )
+    stopped_in_local_control = Sometimes(
+        "R-T8-2", service_is("vMDStop") & answered(PLUS) & local_control().next
+    )
+    stopped_from_afar = Sometimes("R-T8-2", service_is("vMDStop") & answered(PLUS) & ~local_control().next)
 
     # All of it can be.
     power_comes = Sometimes("R-6.1.3.1-3", any_power(), "R-5.2.1.2.1-1")

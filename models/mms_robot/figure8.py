@@ -13,7 +13,9 @@ class Figure8(Vocabulary):
 
     before, later = robot_state(), robot_state().next
 
-    idle_reached = Sometimes("R-5.3.1.3.2.1-1", robot_state() == RobotState.IDLE)
+    idle_reached = Sometimes(
+        "R-5.3.1.3.2.1-1", robot_state() == RobotState.IDLE, "R-6.3.5.2-2", provided=~never_idle
+    )
     loaded_reached = Sometimes("R-5.3.1.3.2.2-1", robot_state() == RobotState.LOADED)
     ready_reached = Sometimes("R-5.3.1.3.2.3-1", robot_state() == RobotState.READY)
     executing_reached = Sometimes("R-5.3.1.3.2.4-1", robot_state() == RobotState.EXECUTING)
@@ -21,9 +23,11 @@ class Figure8(Vocabulary):
     intervention_reached = Sometimes("R-5.3.1.3.2.6-2", robot_state() == RobotState.INTERVENTION)
 
     t01_load = Sometimes(
-        "R-5.3.1.3.1-t01", (before == RobotState.IDLE) & (later == RobotState.LOADED) & service_is("createProgramInvocation"), "R-6.3.5.2-1")  # fmt: skip
+        "R-5.3.1.3.1-t01", (before == RobotState.IDLE) & (later == RobotState.LOADED) & service_is("createProgramInvocation"), "R-6.3.5.2-1",
+        provided=~never_idle & ~single_task())  # fmt: skip
     t02_clear = Sometimes(
-        "R-5.3.1.3.1-t02", (before == RobotState.LOADED) & (later == RobotState.IDLE) & service_is("deleteProgramInvocation", "vMDReset"), "R-6.3.5.3-1")  # fmt: skip
+        "R-5.3.1.3.1-t02", (before == RobotState.LOADED) & (later == RobotState.IDLE) & service_is("deleteProgramInvocation", "vMDReset"), "R-6.3.5.3-1",
+        provided=~never_idle)  # fmt: skip
     t03_assign = Sometimes(
         "R-5.3.1.3.1-t03", (before == RobotState.LOADED) & (later == RobotState.READY) & service_is("select"), "R-6.3.5.4-1")  # fmt: skip
     t04_deassign = Sometimes(
@@ -39,11 +43,15 @@ class Figure8(Vocabulary):
     t09_continue_taken = Sometimes(
         "R-5.3.1.3.1-t09", (before == RobotState.MOTION_PAUSED) & (later == RobotState.EXECUTING) & service_is("resume"), "R-6.3.5.10-1")  # fmt: skip
     t10_clear_abort = Sometimes(
-        "R-5.3.1.3.1-t10", (before == RobotState.MOTION_PAUSED) & (later == RobotState.IDLE) & service_is("vMDReset"), "R-6.3.5.11-1")  # fmt: skip
+        "R-5.3.1.3.1-t10", (before == RobotState.MOTION_PAUSED) & (later == RobotState.IDLE) & service_is("vMDReset"), "R-6.3.5.11-1", provided=~never_idle)  # fmt: skip
     t11_clear_abandon = Sometimes(
-        "R-5.3.1.3.1-t11", (before == RobotState.READY) & (later == RobotState.IDLE) & service_is("vMDReset"), "R-6.3.5.12-1")  # fmt: skip
+        "R-5.3.1.3.1-t11", (before == RobotState.READY) & (later == RobotState.IDLE) & service_is("vMDReset"), "R-6.3.5.12-1", provided=~never_idle)  # fmt: skip
     t12_emergency_action = Sometimes(
         "R-5.3.1.3.1-t12", (before == RobotState.EXECUTING) & (later == RobotState.INTERVENTION) & service_is("vMDStop"), "R-6.3.5.13-3")  # fmt: skip
+
+    load_and_assign = Sometimes(
+        "R-5.3.1.3.3.4-2", (before == RobotState.IDLE) & (later == RobotState.READY) & service_is("createProgramInvocation"),
+        provided=single_task() & ~never_idle)  # fmt: skip
 
     # The arrows of the figure; the operator's way out of MANUAL-INTERVENTION-REQUIRED may lead anywhere (5.3.1.3.2.6).
     arrows = any_of(
@@ -54,6 +62,10 @@ class Figure8(Vocabulary):
         (before == RobotState.EXECUTING) & later.isin([RobotState.LOADED, RobotState.MOTION_PAUSED]),
         (before == RobotState.MOTION_PAUSED)
         & later.isin([RobotState.READY, RobotState.EXECUTING, RobotState.IDLE]),
+        (before == RobotState.IDLE)
+        & (later == RobotState.READY)
+        & single_task()
+        & service_is("createProgramInvocation"),
         later == RobotState.INTERVENTION,
         before == RobotState.INTERVENTION,
     )

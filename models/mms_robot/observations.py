@@ -108,6 +108,8 @@ class Observations(Vocabulary):
                   says="mmsDeletable of {pi} cannot be {shown_deletable}"),
             needs("R-7.3.3.9-1", "B-ATTRIBUTES", rule="attributes.reusable", that=reusable[pi] == shown_reusable,
                   says="reusable of {pi} cannot be {shown_reusable}"),
+            needs("R-7.3.3.9-1", "R-6.3.6-3", "R-6.3.6-4", "B-ATTRIBUTES", rule="attributes.state",
+                  that=calibrates[pi] >> (state[pi] == shown_state), says="{pi} cannot be {shown_state}"),
             needs("R-7.3.3.9-1", "B-ATTRIBUTES", rule="attributes.state", that=state[pi] == shown_state,
                   says="{pi} cannot be {shown_state}"),
             needs("R-7.3.3.9.2.4-1", "R-6.3.2.3-2", rule="attributes.list",
@@ -183,7 +185,9 @@ class Observations(Vocabulary):
     device_local_shown = Observation(
         "R-8.5.4.3-1", "R-6.2.2.2-1", "R-6.2.3.2-1",
         on=shown("R_DLOCAL", device, shown_local),
-        shows=[needs("R-8.5.4.3-1", "R-6.1.3.2.5-1", rule="variable.device-local", that=device_local[device] == shown_local,
+        shows=[needs("R-8.5.4.3-1", "R-6.1.3.2.5-1", rule="variable.device-local", that=shown_local >> local_control(),
+                     says="R_DLOCAL of {device} cannot be {shown_local}, for the robot is not in local control"),
+               needs("R-8.5.4.3-1", "R-6.1.3.2.5-1", rule="variable.device-local", that=device_local[device] == shown_local,
                      says="R_DLOCAL of {device} cannot be {shown_local}")],
     )  # fmt: skip
 

@@ -46,9 +46,25 @@ class Programs(Vocabulary):
 
     others_controlling = for_some(p)((p != pi) & exists[p] & (control[p] == Control.CONTROLLING))
 
+    # A robot that can hold only one task program: load and assign are one operation (5.3.1.3.3.4). Which
+    # CONTROLLED program invocations are assigned with it is a local matter, but the arm's are (6.3.4.4).
+    also_assigns = single_task() & (kind == Control.CONTROLLING)
+    free_controlled = (
+        exists[c]
+        & (control[c] == Control.CONTROLLED)
+        & (state[c] != State.UNRUNNABLE)
+        & ~for_some(a)(controller[c, a])
+    )
+    comes_along = (arm[c] | assigned.has(c)) & free_controlled
+    assign_too = [
+        controls[pi, c].becomes(True).over(c).when(comes_along),
+        controller[c, a].becomes(True).over(c, a).when(comes_along & (a == pi)),
+        selected[pi].becomes(True),
+    ]  # fmt: skip
+
     create = Procedure(
         "R-7.3.3.2.3",
-        on=response("createProgramInvocation", request, user, pi, kind, reuse, binds_arm, domains),
+        on=response("createProgramInvocation", request, user, pi, kind, reuse, binds_arm, domains, assigned),
         steps=[
             refuse("0", "B-CREATE", when=exists[pi], rule="create.exists", says="{pi} exists already"),
             *domains_fit,
@@ -59,7 +75,9 @@ class Programs(Vocabulary):
                located[pi].becomes(False).when(kind == Control.CONTROLLING)),
             do("b", controller[pi, a].becomes(False).over(a).when(kind == Control.CONTROLLED)),
             do("R-5.3.1.3.3.2-3", robot_state().becomes(RobotState.LOADED).when(kind == Control.CONTROLLING), cites=["R-6.3.5.2-1"]),
-            accept("0"),
+            accept("0", when=~also_assigns),
+            do("R-5.3.1.3.3.4-2", *assign_too, robot_state().becomes(RobotState.READY), cites=["R-6.3.4.4-1"]),
+            accept("R-5.3.1.3.3.4-2"),
         ],
     )  # fmt: skip
 
@@ -144,16 +162,24 @@ class ProgramsRepaired(Programs, VocabularyRepaired):
 
     create = Procedure(
         "R-7.3.3.2.3",
-        on=response("createProgramInvocation", request, user, panel, pi, kind, reuse, binds_arm, domains),
+        on=response("createProgramInvocation", request, user, panel, pi, kind, reuse, binds_arm, domains, assigned),
         steps=[
             *admission("create", panel, local_control(), logical(), ALL_BUT_RUNNING),
             refuse("0", "B-CREATE", when=exists[pi], rule="create.exists", says="{pi} exists already"),
             *domains_fit,
+            refuse("R-5.3.1.3.3.13-2", "RP-29", when=also_assigns & intervention(), rule="create.intervention", level="warning",
+                   says="the robot is in MANUAL-INTERVENTION-REQUIRED, and {pi} would be selected too"),
+            refuse("R-7.4.4.2-a", "RP-29", when=also_assigns & ~(holder[user] | panel), rule="create.without-control", level="warning",
+                   says="{user} does not hold R_CTRL, and {pi} would be selected too"),
+            refuse("R-5.3.1.3.3.4-2", "RP-29", when=also_assigns & some_controlling(), rule="create.second-task", level="warning",
+                   says="the robot holds another task program, and can hold only one"),
             do("0", state[pi].becomes(State.IDLE), control[pi].becomes(kind), deletable[pi].becomes(True),
                reusable[pi].becomes(reuse), arm[pi].becomes(binds_arm), error_code[pi].becomes(0), untried[pi].becomes(True), *bind_domains),
             do("a", controls[pi, c].becomes(False).over(c), mode[pi].becomes(Mode.FREE_RUN), located[pi].becomes(False)),
             do("b", controller[pi, a].becomes(False).over(a)),
-            accept("0"),
+            accept("0", when=~also_assigns),
+            do("R-5.3.1.3.3.4-2", *assign_too, cites=["RP-29", "R-6.3.4.4-1"]),
+            accept("R-5.3.1.3.3.4-2"),
         ],
         repairs=repaired("RP-13", "R-5.3.1.3.3.2-3", because="a new task program does not change READY, EXECUTING or MOTION-PAUSED"),
     )  # fmt: skip
@@ -229,6 +255,7 @@ class ProgramsRepaired(Programs, VocabularyRepaired):
         when=[state[pi] == State.RUNNING],
         then=[
             calibration[r].becomes(Calibration.NOT_CALIBRATED).over(r).when(destructive & calibrates_device[pi, r]),
+            joint_calibration[r, j].becomes(Calibration.NOT_CALIBRATED).over(r, j).when(destructive & calibrates_device[pi, r]),
             state[c].becomes(State.STOPPED).over(c).when(destructive & selected[pi] & controls[pi, c] & (state[c] == State.RUNNING)),
             state[pi].becomes(if_(destructive, State.UNRUNNABLE, State.STOPPED)),
             controller[c, a].becomes(False).over(c, a).when(destructive & selected[pi] & (a == pi)),

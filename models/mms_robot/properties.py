@@ -40,7 +40,13 @@ class Properties(Vocabulary):
     selection_at_power_on = Initially(
         "R-6.3.5.2-3", for_all(p)(selected[p] == selected_at_power_on[p]), "R-6.3.5.4-3"
     )
-    lists_at_power_on = Initially("R-6.3.2.3-2", for_all(p, c)(~controls[p, c] & ~controller[c, p]))
+    lists_at_power_on = Initially(
+        "R-6.3.2.3-2",
+        for_all(p, c)(
+            (controls[p, c] == predefined_controls[p, c]) & (controller[c, p] == predefined_controls[p, c])
+        ),
+        "R-6.3.5.4-3",
+    )
     modes_at_power_on = Initially(
         "R-6.3.2.5-1", for_all(p)((mode[p] == Mode.FREE_RUN) & (cycles[p] == 0) & (steps[p] == 0))
     )
@@ -58,6 +64,7 @@ class Properties(Vocabulary):
             RobotState.READY,
             if_(some_controlling(), RobotState.LOADED, RobotState.IDLE),
         ),
+        "R-6.3.5.1-1",
     )
     selected_predefined = Assume(
         "R-6.3.5.4-3",
@@ -67,6 +74,37 @@ class Properties(Vocabulary):
     )
     one_selected_predefined = Assume(
         "R-6.1.1-2", for_all(a, b)((selected_at_power_on[a] & selected_at_power_on[b]) >> (a == b))
+    )
+    lists_predefined = Assume(
+        "R-6.3.2.3-2",
+        for_all(a, c)(
+            predefined_controls[a, c]
+            >> (
+                predefined[a]
+                & (predefined_control[a] == Control.CONTROLLING)
+                & predefined[c]
+                & (predefined_control[c] == Control.CONTROLLED)
+            )
+        ),
+        "R-6.3.2.3-1",
+    )
+    one_list_predefined = Assume(
+        "R-6.3.1-3",
+        for_all(a, b, c)((predefined_controls[a, c] & predefined_controls[b, c]) >> (a == b)),
+        "R-7.3.3.1-4",
+    )
+    one_task_predefined = Assume(
+        "R-5.3.1.3.3.4-2",
+        for_all(a, b)(
+            (
+                single_task()
+                & predefined[a]
+                & (predefined_control[a] == Control.CONTROLLING)
+                & predefined[b]
+                & (predefined_control[b] == Control.CONTROLLING)
+            )
+            >> (a == b)
+        ),
     )
     calibration_predefined = Assume(
         "R-8.3.2-3", for_all(p)(calibrates[p] >> ~predefined_deletable[p]), "R-8.3.2-2", "R-6.3.6-2"
@@ -215,6 +253,29 @@ class Properties(Vocabulary):
     )
     arm_remains = Always(
         "R-8.3.1-3", for_all(p)((standard_arm[p] | calibrates[p]) >> (exists[p] & ~deletable[p])), "R-8.3.2-2"
+    )
+
+    steps_supported = Always(
+        "R-6.3.2.5-5",
+        for_all(p)((mode[p] == Mode.STEP_LIMITED) >> step_limited()),
+        "R-7.3.3.3.1.5-3",
+        "R-7.4.5.1.1.5-1",
+        "R-5.3.2-2",
+        says="nothing is STEP-LIMITED where that is not supported",
+    )
+    one_task = Always(
+        "R-5.3.1.3.3.4-2",
+        for_all(a, b)(
+            (
+                single_task()
+                & exists[a]
+                & (control[a] == Control.CONTROLLING)
+                & exists[b]
+                & (control[b] == Control.CONTROLLING)
+            )
+            >> (a == b)
+        ),
+        says="a robot that can hold only one task program holds no second one",
     )
 
     # Steps. A declared destructive failure (B-FAIL) is no refusal: it has an effect and says so.

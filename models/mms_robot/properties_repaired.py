@@ -3,6 +3,7 @@
 from mmsverify.model import (
     PLUS,
     Always,
+    Assume,
     Derived,
     Initially,
     Step,
@@ -20,11 +21,14 @@ from .vocabulary import Control, Logical, Physical, RobotState, State, Vocabular
 class PropertiesRepaired(Properties, VocabularyRepaired):
     """The repaired reading."""
 
-    robot_at_power_on = Initially("R-6.3.5.2-2", ~intervention(),
+    robot_at_power_on = Initially("R-6.3.5.2-2", ~intervention(), "R-6.3.5.1-1",
                                   repairs=repaired("RP-12", "R-6.3.5.2-2", because="the robot state follows from the rest"))  # fmt: skip
     ready_controls_arm = Always(
         "R-6.3.4.4-1", for_all(a, c)(((robot_state() == RobotState.READY) & arm[c] & controller[c, a]) >> selected[a]),
         repairs=repaired("RP-12", "R-6.3.4.4-1", because="an arm is not required in the list; if it is controlled, then by the selected one"))  # fmt: skip
+
+    list_of_selected = Assume("R-7.4.4.2-i", for_all(a, c)(predefined_controls[a, c] >> selected_at_power_on[a]), "R-7.4.4.2-f2",
+                              repairs=repaired("RP-30", "R-7.4.4.2-i", because="the list of one that is not selected would stand for ever, and keep it from being selected"))  # fmt: skip
 
     lists_end = Always("R-6.3.2.3-1", for_all(a, c)(controls[a, c] >> (exists[a] & (control[a] == Control.CONTROLLING))),
                        says="only an existing CONTROLLING program invocation has a list",

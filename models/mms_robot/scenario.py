@@ -33,17 +33,29 @@ def scenario(
         "Domain": domain_names(predefined, sizes.get("Domain", 0)),
         "Upload": tuple(f"upload{i + 1}" for i in range(sizes.get("Upload", 0))),
         "Device": _devices(_arms(profile), sizes),
+        "Joint": tuple(f"joint{i + 1}" for i in range(sizes.get("Joint", 1))),
     }
     facts: dict[tuple[str, tuple[str, ...]], Any] = {
         ("step_limited", ()): bool(profile.get("step_limited", True)),
         ("single_association", ()): profile.get("associations", "single") == "single",
+        ("single_task", ()): bool(profile.get("single_task", False)),
     }
     for name in elements["PI"]:
         entry = next((e for e in predefined if e["name"] == name), None)
         facts |= attributes(name, entry, profile)
+        listed = () if entry is None else entry.get("controlled", ())
+        facts |= {("predefined_controls", (name, each)): each in listed for each in elements["PI"]}
         facts |= _calibrates(name, entry, elements["Device"], _arms(profile))
-    facts |= {("needs_calibration", (arm,)): True for arm in _arms(profile) if arm in elements["Device"]}
+    for arm in set(_arms(profile)).intersection(elements["Device"]):
+        facts |= {("needs_calibration", (arm,)): True, ("jointed", (arm,)): True}
     return elements, facts | domain_facts(elements["Domain"], elements["PI"], predefined)
+
+
+def named(profile: Mapping[str, Any]) -> dict[str, int]:
+    """How many elements of each sort a profile names."""
+    predefined = profile.get("predefined", DEFAULT)
+    domains = {str(d) for entry in predefined for d in entry.get("domains", ())}
+    return {"PI": len(predefined), "Domain": len(domains), "Device": len(_arms(profile))}
 
 
 def domain_names(predefined: Sequence[Mapping[str, Any]], size: int) -> tuple[str, ...]:

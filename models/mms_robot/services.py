@@ -3,9 +3,9 @@
 They are claims about its step, the same in both readings.
 """
 
-from mmsverify.model import PLUS, Step, answered, for_all, service_is
+from mmsverify.model import PLUS, Always, Step, answered, for_all, for_some, service_is
 
-from .vocabulary import State, Vocabulary
+from .vocabulary import Control, RobotState, State, Vocabulary
 
 
 class Services(Vocabulary):
@@ -43,3 +43,34 @@ class Services(Vocabulary):
                                  says="who took control holds R_CTRL")  # fmt: skip
     given_control_is_free = Step("R-8.6.1-2", (service_is("relinquishControl") & answered(PLUS)) >> ~holder[user].next, "B-SEMAPHORE",
                                  says="who gave control back does not hold R_CTRL")  # fmt: skip
+
+    # Who is served, and when: a client that holds R_CTRL, or somebody at the panel.
+    in_charge = holder[user] | panel
+    start_needs_control = Step("R-7.3.3.3.3-b", (service_is("start") & answered(PLUS)) >> in_charge,
+                       says="Start is for the client that holds R_CTRL")  # fmt: skip
+    stop_needs_control = Step("R-7.3.3.4.1-b", (service_is("stop") & answered(PLUS)) >> in_charge,
+                       says="Stop is for the client that holds R_CTRL")  # fmt: skip
+    resume_needs_control = Step("R-7.3.3.5.3-b", (service_is("resume") & answered(PLUS)) >> in_charge,
+                       says="Resume is for the client that holds R_CTRL")  # fmt: skip
+    reset_needs_control = Step("R-7.3.3.6.1-b", (service_is("reset") & answered(PLUS)) >> in_charge,
+                       says="Reset is for the client that holds R_CTRL")  # fmt: skip
+    kill_needs_control = Step("R-7.3.3.7.1-b", (service_is("kill") & answered(PLUS)) >> in_charge,
+                       says="Kill is for the client that holds R_CTRL")  # fmt: skip
+    delete_needs_control = Step("R-7.3.3.8.1-b", (service_is("deleteProgramInvocation") & answered(PLUS)) >> in_charge,
+                       says="DeleteProgramInvocation is for the client that holds R_CTRL")  # fmt: skip
+    vmd_stop_needs_control = Step("R-7.4.2.2-1", (service_is("vMDStop") & answered(PLUS)) >> in_charge,
+                       says="VMD Stop is for the client that holds R_CTRL")  # fmt: skip
+    vmd_reset_needs_control = Step("R-7.4.3.2-a", (service_is("vMDReset") & answered(PLUS)) >> in_charge,
+                       says="VMD Reset is for the client that holds R_CTRL")  # fmt: skip
+    started_was_selected = Step(
+        "R-7.3.3.3.3-d0", (service_is("start") & answered(PLUS) & (control[pi] == Control.CONTROLLING)) >> selected[pi],
+        says="a task program that is started is the selected one")  # fmt: skip
+    motion_by_running_arm = Step(
+        "R-7.3.3.3.3-f", (~motion() & motion().next)
+        >> for_some(c)(arm[c] & (control[c] == Control.CONTROLLED) & (state[c].next == State.RUNNING)),
+        says="motion is enabled by a controlled program bound to an arm that is RUNNING then")  # fmt: skip
+    not_reset_while_executing = Step(
+        "R-7.4.3.2-b", (service_is("vMDReset") & answered(PLUS)) >> (robot_state() != RobotState.EXECUTING),
+        says="the robot is not reset while it is executing")  # fmt: skip
+    none_without_task = Always("R-6.1.3.2.6-3", ~some_controlling() >> ~some_selected(),
+                               says="without a task program the selected program invocation is NONE")  # fmt: skip

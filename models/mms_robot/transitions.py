@@ -40,11 +40,13 @@ class Transitions(Vocabulary):
     before, later = robot_state(), robot_state().next
     is_task = control[pi] == Control.CONTROLLING
 
+    changed_in_local_control = Sometimes("R-T1-N", local_control() & local_control().next & (before != later))
+
     # Load and Clear (5.3.1.3.3.2, .3; 6.3.5.2, .3).
     load_makes_loaded = Step(
         "R-5.3.1.3.3.2-2",
-        (service_is("createProgramInvocation") & answered(PLUS) & (kind == Control.CONTROLLING) & (before == RobotState.IDLE)) >> (later == RobotState.LOADED),
-        says="the first task program makes an idle robot LOADED")  # fmt: skip
+        (service_is("createProgramInvocation") & answered(PLUS) & (kind == Control.CONTROLLING) & (before == RobotState.IDLE)) >> (later == if_(single_task(), RobotState.READY, RobotState.LOADED)),
+        "R-5.3.1.3.3.4-2", says="the first task program makes an idle robot LOADED, and READY where it is assigned with it")  # fmt: skip
     load_concerns_task_programs = Step(
         "R-5.3.1.3.3.2-1", (service_is("createProgramInvocation") & (kind != Control.CONTROLLING)) >> (later == before),
         says="only a program that controls the arm counts as loaded")  # fmt: skip
@@ -56,7 +58,7 @@ class Transitions(Vocabulary):
         "R-6.3.5.3-3", ((before == RobotState.LOADED) & (later == RobotState.IDLE)) >> some_controlling(),
         says="what is cleared has been loaded before")  # fmt: skip
     clear_by_reset = Sometimes(
-        "R-6.3.5.3-2", (before == RobotState.LOADED) & (later == RobotState.IDLE) & service_is("vMDReset"))  # fmt: skip
+        "R-6.3.5.3-2", (before == RobotState.LOADED) & (later == RobotState.IDLE) & service_is("vMDReset"), provided=~never_idle)  # fmt: skip
 
     # Assign and Deassign (5.3.1.3.3.4, .5; 6.3.5.4, .5; figure 10).
     assign_makes_ready = Step(
@@ -197,7 +199,8 @@ class TransitionsRepaired(Transitions, VocabularyRepaired):
 
     # By local activity, too (5.3.1.3.3.1, 6.3.4.1): somebody at the panel.
     loaded_at_the_panel = Sometimes(
-        "R-5.3.1.3.3.1-1", (before == RobotState.IDLE) & (later == RobotState.LOADED) & panel, "R-6.3.4.1-3")  # fmt: skip
+        "R-5.3.1.3.3.1-1", (before == RobotState.IDLE) & (later == RobotState.LOADED) & panel, "R-6.3.4.1-3",
+        provided=~never_idle & ~single_task())  # fmt: skip
     assigned_at_the_panel = Sometimes(
         "R-5.3.1.3.3.1-1", (before == RobotState.LOADED) & (later == RobotState.READY) & panel, "R-6.3.4.1-3")  # fmt: skip
     started_at_the_panel = Sometimes(

@@ -116,6 +116,7 @@ class Vocabulary(Model):
     Domain = Each("Domain")
     Upload = Each("Upload")
     Device = Each("Device")
+    Joint = Each("Joint")
 
     # What a profile fixes.
     predefined = Relation(PI, rigid=True, doc="exists at power-on")
@@ -123,14 +124,19 @@ class Vocabulary(Model):
     predefined_deletable = Relation(PI, rigid=True, doc="can be deleted by MMS")
     predefined_reusable = Relation(PI, rigid=True)
     predefined_arm = Relation(PI, rigid=True, doc="is bound to a domain of a robot arm")
+    predefined_controls = Relation(PI, PI, rigid=True, doc="the list of a names c at power-on")
     selected_at_power_on = Relation(PI, rigid=True)
     calibrates = Relation(PI, rigid=True, doc="R_CAL, the calibration program (6.3.6, 8.3.2)")
     standard_arm = Relation(PI, rigid=True, doc="R_ARM, the arm program by its standardized name (8.3.1)")
     step_limited = Relation(rigid=True, doc="STEP-LIMITED is supported (PICS part 6)")
+    single_task = Relation(
+        rigid=True, doc="holds one task program: load and assign are one operation (5.3.1.3.3.4)"
+    )
     single_association = Relation(rigid=True, doc="base class: one association, which holds R_CTRL")
     calibrates_device = Relation(
         PI, Device, rigid=True, doc="the calibration program is for this physical resource"
     )
+    jointed = Relation(Device, rigid=True, doc="a robot arm, calibrated by its joints (6.2.2.4)")
     needs_calibration = Relation(Device, rigid=True, doc="has a calibration attribute (6.2.2.4, 6.2.3.4)")
 
     # Program invocations (6.3.2).
@@ -159,9 +165,15 @@ class Vocabulary(Model):
     )
 
     # Physical resources, each the domain that represents it, and what the VMD says of all of them (6.1.3, 6.2).
-    power = Relation(Device, doc="the resource is powered (6.2.2.3, 6.2.3.3)")
-    calibration = Variable(Calibration, Device, doc="means something where it needs calibration")
-    device_local = Relation(Device, doc="some local agent holds control of the resource (6.2.2.2, 6.2.3.2)")
+    power = Relation(
+        Device, doc="the resource is powered (6.2.2.3, 6.2.3.3)", cites=["R-6.2.2.1-1", "R-6.2.3.1-1"]
+    )
+    calibration = Variable(Calibration, Device, doc="means something where it needs calibration",
+                           cites=["R-6.2.2.1-1", "R-6.2.3.1-1"])  # fmt: skip
+    joint_calibration = Variable(Calibration, (Device, Joint), doc="of each joint of an arm (6.2.2.8.2.2)",
+                                 cites=["R-6.2.2.1-2"])  # fmt: skip
+    device_local = Relation(Device, doc="some local agent holds control of the resource (6.2.2.2, 6.2.3.2)",
+                            cites=["R-6.2.2.1-1", "R-6.2.3.1-1"])  # fmt: skip
     any_power = Relation(doc="any physical resource power on (6.1.3.2.3)")
     all_calibrated = Relation(doc="all physical resources calibrated (6.1.3.2.4)")
     interlocks_violated = Relation(
@@ -215,6 +227,7 @@ class Vocabulary(Model):
     d = Domain.element("d")
     x = Upload.element("x")
     r = Device.element("r")
+    j = Joint.element("j")
 
     # Parameters of the services.
     request = Request.element("request")
@@ -230,6 +243,7 @@ class Vocabulary(Model):
     kind = parameter("kind", Control)
     reuse = parameter("reuse", BOOL)
     binds_arm = parameter("binds_arm", BOOL)
+    assigned = PI.some("assigned")
     location_given = parameter("location_given", BOOL)
     limit = optional("limit", Mode)
     count = parameter("count", integer())
@@ -250,7 +264,14 @@ class Vocabulary(Model):
     discard = parameter("discard", BOOL)
     upload = Upload.element("upload")
     held = Device.some("held")
+    calibrated_joints = Joint.some("calibrated_joints")
     step_fails = parameter("step_fails", BOOL)
+
+    # With a predefined CONTROLLING program invocation there is no ROBOT-IDLE at power-on (6.3.5.2), and never one
+    # if it cannot be deleted.
+    never_idle = for_some(p)(
+        predefined[p] & (predefined_control[p] == Control.CONTROLLING) & ~predefined_deletable[p]
+    )
 
     exists = Derived(state[p] != State.NON_EXISTENT, over=[p])
     some_controlling = Derived(
@@ -282,6 +303,7 @@ class Vocabulary(Model):
     # While the calibration program executes, its resources are CALIBRATING, so that not all are CALIBRATED (6.3.6).
     calibrating = [
         calibration[r].becomes(Calibration.CALIBRATING).over(r).when(calibrates_device[pi, r]),
+        joint_calibration[r, j].becomes(Calibration.CALIBRATING).over(r, j).when(calibrates_device[pi, r]),
         all_calibrated().becomes(False).when(for_some(r)(calibrates_device[pi, r])),
     ]  # fmt: skip
 
@@ -312,4 +334,7 @@ class VocabularyRepaired(Vocabulary):
 
     # A calibration program that goes away has not completed (RP-26).
     cut_short = Derived(calibrates_device[p, r] & (calibration[r] == Calibration.CALIBRATING), over=[p, r])
-    breaks_off = [calibration[r].becomes(Calibration.NOT_CALIBRATED).over(r).when(cut_short[pi, r])]
+    breaks_off = [
+        calibration[r].becomes(Calibration.NOT_CALIBRATED).over(r).when(cut_short[pi, r]),
+        joint_calibration[r, j].becomes(Calibration.NOT_CALIBRATED).over(r, j).when(cut_short[pi, r]),
+    ]  # fmt: skip

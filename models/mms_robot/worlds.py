@@ -3,11 +3,13 @@
 Claims speak of every profile, so a run in any of these refutes them. Without a profile of the user's own: a
 robot with its arm program, one domain that programs may be made of, one whose task program cannot be deleted,
 one where nothing is predefined; then a second client, a second controlled program, a third program of any
-kind, more about domains.
+kind, more about domains; one that holds a single task program and knows no steps.
 """
 
 from collections.abc import Iterator, Mapping
 from typing import Any
+
+from .scenario import named
 
 ARM = {"name": "R_ARM", "control": "CONTROLLED", "domains": ["R_ARM"], "deletable": False}
 TOOL = {"name": "R_TOOL", "control": "CONTROLLED", "domains": ["R_TOOL"], "deletable": False}
@@ -19,9 +21,14 @@ SHARING = {"name": "OTHER", "control": "NORMAL", "domains": ["TASK"], "deletable
 def worlds(profile: Mapping[str, Any] | None) -> Iterator[dict[str, Any]]:
     """Sizes and profile of each world; a user's profile keeps all that it predefines, and room for more."""
     if profile is not None:
-        given = len(profile.get("predefined", ()))
-        for more, clients in ((1, 1), (2, 1), (1, 2)):
-            yield {"sizes": {"PI": given + more, "Client": clients}, "profile": profile}
+        given = named(profile)
+        yield {"sizes": {"PI": given["PI"] + 1}, "profile": profile}
+        yield {
+            "sizes": {"PI": given["PI"] + 1, "Domain": given["Domain"] + 1, "Upload": 1},
+            "profile": profile,
+        }
+        yield {"sizes": {"PI": given["PI"], "Client": 2}, "profile": profile}
+        yield {"sizes": {"PI": given["PI"] + 2}, "profile": profile}
         return
     yield {"sizes": {"PI": 2}, "profile": {"predefined": [ARM]}}
     yield {"sizes": {"PI": 1, "Domain": 1, "Upload": 1}, "profile": {"predefined": []}}
@@ -37,3 +44,4 @@ def worlds(profile: Mapping[str, Any] | None) -> Iterator[dict[str, Any]]:
         "sizes": {"PI": 1, "Domain": 1, "Client": 2},
         "profile": {"predefined": [], "associations": "multiple"},
     }
+    yield {"sizes": {"PI": 3}, "profile": {"predefined": [ARM], "single_task": True, "step_limited": False}}

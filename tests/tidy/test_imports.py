@@ -32,7 +32,7 @@ ALLOWED = {
     "events": {"errors"},
     "results": {"errors", "events"},
     "resources": {"errors"},
-    "profiles": {"errors"},
+    "profiles": {"errors", "resources", "results"},
     "model": VOCABULARY,
     "formats": {"errors", "events", "resources"},
     "samples": {"errors", "events", "formats"},
