@@ -23,7 +23,7 @@ class Move:
     """Something that may happen unseen, once between two events for the names in its tag.
 
     One of ``ways`` is taken. ``bars`` are the tags' names after which it does not happen. ``explains``: it is
-    assumed only where it makes possible what is shown, not where it merely may have happened. ``stands``
+    assumed only where it makes possible what is shown and was not, not where it merely may have happened. ``stands``
     tells what stands against it, where that is not in its rows.
     """
 
@@ -91,6 +91,8 @@ class Field:
         All others can wait. Of the second kind it does not matter which have been made: they only disturb.
         """
         gone = self.gone(history)
+        if self._explaining and not goal.impossible(state):
+            gone |= self._explaining  # the state allows what is shown: nothing needs an explanation
         members = tried = disturb = 0
         todo = self._roots(state, goal) & ~gone
         while todo:
