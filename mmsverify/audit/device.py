@@ -48,7 +48,7 @@ class Device:
         self._performing = Performing(belief, self._telling, self._acquaintance, arms)
         self._showing = Showing(belief, self._telling, self._acquaintance)
         self._transfers = Transfers(belief, self._telling)
-        self._notifications = Notifications(belief)
+        self._notifications = Notifications(belief, self._showing)
         self._conformance = Conformance()
         self._objects = Objects()
 
@@ -62,11 +62,13 @@ class Device:
             if connection not in self.base_only:
                 self.belief.lose_sight()
                 self._acquaintance.lose()
+                self._notifications.lose()
         elif event in ("close", "reset"):
             if association.alarm:
                 lost_after = Breach("association.lost-after-stop", {"cause": association.alarm})
                 yield from self._telling.breach(message, lost_after)
             lost = association.end()
+            self._notifications.ended(connection)
             self._release(connection)
         else:
             association.reopen()
@@ -92,6 +94,7 @@ class Device:
     def message(self, message: TraceMessage) -> Iterator[Finding]:
         """The findings of one MMS message."""
         name, side = message.metadata.get("association", ""), message.metadata.get("sender", "client")
+        self.belief.listen()
         try:
             pdu = mms.decode(message.data)
         except DecodeError as error:
@@ -103,7 +106,8 @@ class Device:
                 yield from self._telling.breach(message, found)
             else:
                 yield found
-        self._notifications.note()
+        for late in self._notifications.note(name, message):
+            yield from self._telling.breach(message, late)
 
     def _judge(self, association: Association, side: str, pdu: Pdu, message: TraceMessage) -> Told:
         robot = self._is_robot(association)
@@ -135,23 +139,27 @@ class Device:
                 yield from association.cancel(message.index, side, pdu)
             case "conclude-RequestPDU" | "conclude-ResponsePDU" | "conclude-ErrorPDU":
                 yield from association.conclude(side, pdu)
-                yield from self._concluded(association, side, pdu, alarm)
+                yield from self._concluded(association, side, pdu, alarm, message)
 
     def _initiated(self, association: Association, pdu: Pdu, message: TraceMessage) -> Told:
         proposed = association.proposed
         self._drop(list(association.asked.values()))
         yield from association.agree(pdu)
+        self._notifications.ended(association.name)
         if self._is_robot(association):
             yield from self._conformance.initiated(proposed, pdu.body)
             bindings = {"user": association.name}
             outcome = self.belief.respond(association.name, "initiate", bindings, PLUS)
             yield from self._telling.outcome(message, "initiate", PLUS, outcome)
 
-    def _concluded(self, association: Association, side: str, pdu: Pdu, alarm: str) -> Told:
+    def _concluded(
+        self, association: Association, side: str, pdu: Pdu, alarm: str, message: TraceMessage
+    ) -> Told:
         if pdu.kind == "conclude-RequestPDU" and side == "server" and alarm:
             yield Breach("association.concluded-after-stop", {"cause": alarm})
         elif pdu.kind == "conclude-ResponsePDU":
             self._drop(association.concluded())
+            yield from self._notifications.concluded(association.name, message)
             self._release(association.name)
 
     def _requested(self, association: Association, asked: Asked, message: TraceMessage) -> Told:
@@ -182,8 +190,10 @@ class Device:
         undisturbed = self.belief.undisturbed(asked.slot)
         if undisturbed and pdu.kind == "confirmed-ResponsePDU" and asked.pdu.service == "vMDReset":
             yield from self._showing.status(pdu.body, pdu.detail, message)
-        if pdu.kind == "confirmed-ResponsePDU" and asked.pdu.service == "defineEventEnrollment":
-            self._notifications.enrolled(asked.pdu)
+        if pdu.kind == "confirmed-ResponsePDU":
+            agreed_on = association.negotiated
+            listens = agreed_on is None or agreed_on.listed("client", "eventNotification") is not False
+            self._notifications.performed(association.name, asked.pdu, pdu, listens=listens)
 
     def _replayed(self, association: Association, asked: Asked, pdu: Pdu, message: TraceMessage) -> Told:
         """What the answer does or shows in the model."""
@@ -213,4 +223,4 @@ class Device:
                 yield from self._showing.values(pdu, pdu, message)
             case "eventNotification":
                 yield from self._objects.notified(pdu)
-                yield from self._notifications.notified(pdu)
+                yield from self._notifications.notified(association.name, pdu, message)

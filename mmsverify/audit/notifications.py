@@ -1,58 +1,175 @@
-"""Event notifications: each needs a cause since its enrollment, or since the last notification."""
+"""Event notifications: each needs a cause, and each cause that is enrolled for needs one (6.3.9, 8.7, 8.8).
+
+Which causes there are is told by the model. That a notification is missing is told at the cause, and only
+where every run has it: when the same cause has certainly occurred again, when the association is concluded,
+or when ``PATIENCE`` messages of the association have gone by. Where the recording ends earlier or has a gap,
+nothing is missing.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from typing import Any
 
+from mmsverify.audit import words
+from mmsverify.audit.enrollments import Cause, Enrollment
+from mmsverify.audit.robot import plain_name
 from mmsverify.audit.rules import Breach
+from mmsverify.audit.showing import Showing
 from mmsverify.concrete.belief import Belief
-from mmsverify.formats.mms import Pdu
+from mmsverify.formats.mms import Pdu, bits
+from mmsverify.formats.trace import TraceMessage
+from mmsverify.results import Finding
+
+PATIENCE = 100
+Told = Iterator[Finding | Breach]
 
 
 class Notifications:
-    """The event conditions that somebody has enrolled for, and whether their causes may have come to hold."""
+    """The event enrollments of one device, and what is notified of them."""
 
-    def __init__(self, belief: Belief) -> None:
+    def __init__(self, belief: Belief, showing: Showing) -> None:
         self._belief = belief
-        self._founded: dict[str, bool] = {}
+        self._showing = showing
+        self._enrolled: dict[str, Enrollment] = {}
+        self._deleted: dict[str, str] = {}
+        self._disabled: set[str] = set()
 
-    def enrolled(self, request: Pdu) -> None:
-        """DefineEventEnrollment has been answered positively."""
-        condition = request.body["eventConditionName"][1]
-        if isinstance(condition, str):
-            self._founded[condition] = self._possible(condition)
+    # What is enrolled.
 
-    def _possible(self, condition: str) -> bool:
-        """Whether the state from which the condition's transition leads may hold now.
+    def performed(self, association: str, request: Pdu, answer: Pdu, *, listens: bool) -> None:
+        """A service has been answered positively; ``listens``: the client takes notifications."""
+        body = request.body
+        match request.service:
+            case "defineEventEnrollment":
+                self._define(association, body, listens)
+            case "deleteEventEnrollment":
+                self._delete(association, body, answer.body)
+            case "alterEventEnrollment" if "eventConditionTransitions" in body:
+                known = self._enrolled.get(plain_name(body["eventEnrollmentName"]))
+                if known is not None:
+                    known.transitions = bits("Transitions", body["eventConditionTransitions"])
+                    known.begin(self._belief)
+            case "alterEventConditionMonitoring" if "enabled" in body:
+                (self._disabled.discard if body["enabled"] else self._disabled.add)(
+                    plain_name(body["eventConditionName"])
+                )
 
-        Of an unknown condition nothing is known, so that it always may.
-        """
-        if condition == "R_RVS":
-            return self._belief.may_be("robot_state", (), "ROBOT-EXECUTING")
-        if condition == "R_ARM":
-            return any(self._belief.may_be("state", ("R_ARM",), state) for state in ("RUNNING", "STOPPING"))
-        return True
+    def _define(self, association: str, body: Mapping[str, Any], listens: bool) -> None:
+        name, condition = plain_name(body["eventEnrollmentName"]), plain_name(body["eventConditionName"])
+        causes = [Cause(o) for o in self._belief.model.occurrences if o.condition == condition]
+        self._deleted.pop(name, None)
+        if not causes:
+            self._enrolled.pop(name, None)
+            return
+        made = Enrollment(
+            name, association, condition, bits("Transitions", body["eventConditionTransitions"]),
+            "clientApplication" in body or not listens, causes,
+        )  # fmt: skip
+        self._enrolled[name] = made
+        made.begin(self._belief)
 
-    def note(self) -> None:
-        """After every message: a cause that was impossible until now may have become possible."""
-        for condition, founded in self._founded.items():
-            if not founded:
-                self._founded[condition] = self._possible(condition)
+    def _delete(self, association: str, body: tuple[str, Any], left: int) -> None:
+        """Which ones are deleted is certain only where they are named and none is left."""
+        kind, content = body
+        named = {plain_name(name) for name in content} if kind == "specific" else set(self._enrolled)
+        for name in named:
+            self._enrolled.pop(name, None)
+            if kind == "specific" and left == 0:
+                self._deleted[name] = association
 
-    def notified(self, pdu: Pdu) -> Iterator[Breach]:
+    def lose(self) -> None:
+        """Messages may be missing: anything may have been notified, enrolled or deleted."""
+        self._deleted.clear()
+        for enrollment in self._enrolled.values():
+            enrollment.doubt()
+
+    # What occurs.
+
+    def note(self, association: str, message: TraceMessage) -> Iterator[Breach]:
+        """After every message."""
+        for enrollment in self._enrolled.values():
+            if enrollment.due is not None and enrollment.association == association:
+                enrollment.waited += 1
+                if enrollment.waited > PATIENCE:
+                    yield from self._missing(enrollment, message)
+                    enrollment.due = None
+            if enrollment.note(self._belief, message):
+                yield from self._missing(enrollment, message)
+                enrollment.due, enrollment.waited = message, 0
+
+    def concluded(self, association: str, message: TraceMessage) -> Iterator[Breach]:
+        """The association has been concluded: what is due on it will not come any more."""
+        for enrollment in self._enrolled.values():
+            if enrollment.association == association:
+                yield from self._missing(enrollment, message)
+        self.ended(association)
+
+    def ended(self, association: str) -> None:
+        """The association is over, and with it what was enrolled on it."""
+        self._enrolled = {n: e for n, e in self._enrolled.items() if e.association != association}
+        self._deleted = {n: a for n, a in self._deleted.items() if a != association}
+
+    def _missing(self, enrollment: Enrollment, message: TraceMessage) -> Iterator[Breach]:
+        if enrollment.due is None or not enrollment.must_be_told or enrollment.condition in self._disabled:
+            return
+        said = {"condition": enrollment.condition, "enrollment": enrollment.name}
+        clause = enrollment.causes[0].occurrence.clause
+        related = () if message.index == enrollment.due.index else (message.index,)
+        yield Breach("event.missing", said, related, clause, enrollment.due)
+
+    # What is notified.
+
+    def notified(self, association: str, pdu: Pdu, message: TraceMessage) -> Told:
         """EventNotification of the robot."""
-        condition = pdu.body["eventConditionName"][1]
-        kind, result = (pdu.body.get("actionResult") or {}).get("eventActionResult", ("none", None))
-        if (
-            condition == "R_ARM"
-            and kind == "success"
-            and result["response"][0] == "getProgramInvocationAttributes"
-        ):
-            shown = result["response"][1]
-            if shown["state"] == 3 and shown["listOfDomainNames"] == ["R_ARM"]:
-                yield Breach("event.arm-running")
-                return
-        if not self._founded.get(condition, True):
-            yield Breach("event.unfounded", {"condition": condition})
-        elif condition in self._founded:
-            self._founded[condition] = self._possible(condition)
+        body = pdu.body
+        name, condition = plain_name(body["eventEnrollmentName"]), plain_name(body["eventConditionName"])
+        enrollment = self._enrolled.get(name)
+        if self._deleted.get(name) == association:
+            yield Breach("event.deleted", {"enrollment": name})
+            return
+        answer = _action_result(body)
+        if condition == words.ARM and answer is not None and _runs(answer):
+            yield Breach("event.arm-running")
+        elif enrollment is not None and self._unfounded(enrollment, condition):
+            yield Breach(
+                "event.unfounded", {"condition": condition}, (), enrollment.causes[0].occurrence.clause
+            )
+        elif answer is not None:
+            yield from self._shown(answer, enrollment, message)
+        if enrollment is not None:
+            enrollment.begin(self._belief)
+
+    def _unfounded(self, enrollment: Enrollment, condition: str) -> bool:
+        """Of another transition than those of the causes, nothing is known."""
+        if condition != enrollment.condition or not enrollment.about_causes_only:
+            return False
+        return not enrollment.founded(self._belief)
+
+    def _shown(self, answer: Pdu, enrollment: Enrollment | None, message: TraceMessage) -> Told:
+        """An action's result shows the state at the event; where that was long ago, it is not judged."""
+        if enrollment is None or self._belief.watched(enrollment.slot) is None:
+            return
+        if answer.service == "status":
+            yield from self._showing.status(answer.body, answer.detail, message, enrollment.slot)
+        elif _of_arm(answer):
+            yield from self._showing.attributes(words.ARM, answer, message, enrollment.slot)
+
+
+def _action_result(body: Mapping[str, Any]) -> Pdu | None:
+    """The answer that the event's action has given, if it has."""
+    kind, result = (body.get("actionResult") or {}).get("eventActionResult", ("none", None))
+    if kind != "success":
+        return None
+    service, content = result["response"]
+    return Pdu("confirmed-ResponsePDU", None, service, content, result.get("detail"))
+
+
+def _runs(answer: Pdu) -> bool:
+    """Whether the arm's own program is shown RUNNING; the attributes do not say of which program they are."""
+    return _of_arm(answer) and bool(answer.body["state"] == words.STATE.index("RUNNING"))
+
+
+def _of_arm(answer: Pdu) -> bool:
+    wanted = answer.service == "getProgramInvocationAttributes"
+    return wanted and bool(answer.body["listOfDomainNames"] == [words.ARM])

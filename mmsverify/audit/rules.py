@@ -119,7 +119,19 @@ CONTENTS = (
         "R-8.7.4-1",
         "R-8.8.2-1",
     ),
-    rule("event.unfounded", "{condition} is notified, but its cause cannot have occurred", "R-8.7.1-1"),
+    rule(
+        "event.unfounded",
+        "{condition} is notified, but its cause cannot have occurred",
+        "R-6.3.9-1",
+        "B-EVENT",
+    ),
+    rule(
+        "event.missing",
+        "the cause of {condition} has occurred, but it is not notified to the enrollment {enrollment}",
+        "R-6.3.9-1",
+        "B-EVENT",
+    ),
+    rule("event.deleted", "{enrollment} is notified, but it has been deleted", "R-6.3.9-1", "B-EVENT"),
 )
 
 RULES: Mapping[str, Rule] = {listed.id: listed for listed in (*PROTOCOL, *CONTENTS)}

@@ -32,15 +32,7 @@ class Showing:
             case "status":
                 yield from self.status(pdu.body, pdu.detail, message, asked.slot)
             case "getProgramInvocationAttributes":
-                call = robot.shown_by_attributes(asked.pdu.body, pdu.body, pdu.detail)
-                if call is not None:
-                    self._acquaintance.meet(call)
-                    yield from self._shown(message, call.service, call, asked.slot)
-                else:
-                    self._belief.drop(asked.slot)
-                bound = {"pi": asked.pdu.body, "domains": frozenset(pdu.body["listOfDomainNames"])}
-                domains = robot.Call("listOfDomainNames", bound)
-                yield from self._shown(message, str(asked.pdu.service), domains, None)
+                yield from self.attributes(asked.pdu.body, pdu, message, asked.slot)
             case "read":
                 yield from self.values(asked.pdu, pdu, message, asked.slot)
             case "reportSemaphoreStatus" | "reportSemaphoreEntryStatus":
@@ -61,6 +53,16 @@ class Showing:
             yield from self._telling.outcome(message, str(asked.pdu.service), MINUS, outcome, (asked.index,))
         else:
             self._belief.drop(asked.slot)
+
+    def attributes(self, name: str, pdu: Pdu, message: TraceMessage, slot: str) -> Iterator[Finding]:
+        """The attributes of a program invocation, and the domains that it is bound to."""
+        call = robot.shown_by_attributes(name, pdu.body, pdu.detail)
+        if call is not None:
+            self._acquaintance.meet(call)
+            yield from self._shown(message, call.service, call, slot)
+        domains = frozenset(pdu.body["listOfDomainNames"])
+        bound = robot.Call("listOfDomainNames", {"pi": name, "domains": domains})
+        yield from self._shown(message, str(pdu.service), bound, slot)
 
     def status(
         self, body: Mapping[str, Any], detail: Any, message: TraceMessage, slot: str | None = None

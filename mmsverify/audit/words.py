@@ -35,6 +35,7 @@ LIMIT = {"noLimit": "FREE-RUN", "cycleCount": "CYCLE-LIMITED", "stepCount": "STE
 MODE = {"freeRunning": "FREE-RUN", "cycleLimited": "CYCLE-LIMITED", "stepLimited": "STEP-LIMITED"}
 
 SEMAPHORE = "R_CTRL"
+ARM = "R_ARM"
 
 # Services as a reader of the standard calls them.
 TITLES = {

@@ -26,6 +26,7 @@ from mmsverify.model.declare import (
 )
 from mmsverify.model.load import load, load_variants
 from mmsverify.model.model import Model, ModelData, assemble
+from mmsverify.model.occurrences import Occurrence, Occurs
 from mmsverify.model.procedure import Observation, Procedure, Transition, needs, repaired
 from mmsverify.model.rows import MINUS, PLUS, Claim, Clause, Conjunct, Row
 from mmsverify.model.sorts import BOOL, Enumeration, integer
@@ -34,9 +35,9 @@ from mmsverify.model.terms import all_of, answered, any_of, for_all, for_some, i
 
 __all__ = [
     "BOOL", "MINUS", "PLUS", "Always", "Assume", "Claim", "Clause", "Conjunct", "Derived", "Each",
-    "Enumeration", "Initially", "Model", "ModelData", "Observation", "On", "Procedure", "Relation", "Removed",
-    "Row", "Sometimes", "Step", "Transition", "Unspecified", "Variable", "accept", "all_of", "answered",
-    "any_of", "assemble", "do", "for_all", "for_each", "for_some", "if_", "indication", "integer", "internal",
+    "Enumeration", "Initially", "Model", "ModelData", "Observation", "Occurrence", "Occurs", "On",
+    "Procedure", "Relation", "Removed", "Row", "Sometimes", "Step", "Transition", "Unspecified", "Variable",
+    "accept", "all_of", "answered", "any_of", "assemble", "do", "for_all", "for_each", "for_some", "if_", "indication", "integer", "internal",
     "load", "load_variants", "may", "needs", "optional", "parameter", "refuse", "repaired", "response",
     "service_is", "shown", "unchanged",
 ]  # fmt: skip

@@ -16,6 +16,7 @@ from mmsverify.model import expr as ex
 from mmsverify.model.claims import Assume, ClaimSource, Initially, Removed, Unspecified
 from mmsverify.model.declare import Declared, Derived, Each, Variable
 from mmsverify.model.expr import Cell, Expr
+from mmsverify.model.occurrences import Occurrence, Occurs
 from mmsverify.model.place import mistake
 from mmsverify.model.procedure import RowSource
 from mmsverify.model.rewrite import map_cells, primed, substitute
@@ -141,6 +142,7 @@ class ModelData:
     gaps: tuple[Gap, ...]
     repairs: Mapping[str, Repair]
     options: Mapping[str, Any] = field(default_factory=dict)
+    occurrences: tuple[Occurrence, ...] = ()
 
     @cached_property
     def always(self) -> tuple[Claim, ...]:
@@ -195,6 +197,11 @@ def assemble(source: type[Model]) -> ModelData:
         gaps=tuple(d.gap() for d in declared.values() if isinstance(d, Unspecified)),
         repairs=dict(_repairs(source)),
         options=source.options,
+        occurrences=tuple(
+            _expanded_occurrence(d.occurrence(), definitions)
+            for d in declared.values()
+            if isinstance(d, Occurs)
+        ),
     )
 
 
@@ -246,6 +253,11 @@ def _expanded(conjunct: Conjunct, definitions: Definitions) -> Conjunct:
     return Conjunct(
         expand(conjunct.condition, definitions), conjunct.clause, conjunct.rule, conjunct.says, conjunct.level
     )
+
+
+def _expanded_occurrence(occurrence: Occurrence, definitions: Definitions) -> Occurrence:
+    before, after = expand(occurrence.before, definitions), expand(occurrence.after, definitions)
+    return replace(occurrence, before=before, after=after)
 
 
 def _expanded_row(row: Row, definitions: Definitions) -> Row:

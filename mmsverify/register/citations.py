@@ -40,6 +40,7 @@ KINDS: Mapping[str, str] = {
     "Initially": "condition at power-on",
     "Assume": "assumption",
     "Unspecified": "declared gap",
+    "Occurs": "cause of an event",
     "Relation": "variable",
     "Derived": "definition",
 }

@@ -137,6 +137,7 @@ def pauses(cell: Cell) -> None:
     cell.call("alterPI", {"programInvocation": ROOF, "startCount": ("cycleCount", 2)})
     cell.attributes(ROOF, "running", controlling([ARM], ("cycleLimited", 2)))
     cell.run("stop", ARM)
+    cell.arm_left_running(ENROLLED, "stopped", ROOF)
     cell.run("stop", ROOF)
     cell.tell_status(PAUSED, ROOF)
     cell.run("reset", ROOF)

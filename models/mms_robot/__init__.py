@@ -10,6 +10,7 @@ from .consequences import CONSEQUENCES
 from .device_properties import DeviceProperties
 from .devices import Devices
 from .domains import Domains, DomainsRepaired
+from .events import Events
 from .execution import Execution
 from .execution_repaired import ExecutionRepaired
 from .figure8 import Figure8, Figure8Repaired
@@ -30,7 +31,7 @@ VIEWS = {"robot state": "robot_state", "program invocation": "state"}
 
 class AsWritten(
     Programs, Selection, Execution, Vmd, Associations, Domains, Devices, Observations,
-    Properties, DeviceProperties, Services, Attributes, Figure8, Transitions,
+    Properties, DeviceProperties, Services, Attributes, Figure8, Transitions, Events,
     name="mms-robot", variant="as-written", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
     consequences=CONSEQUENCES, named=named,
 ):  # fmt: skip
@@ -39,7 +40,7 @@ class AsWritten(
 
 class Repaired(
     ProgramsRepaired, SelectionRepaired, ExecutionRepaired, VmdRepaired, AssociationsRepaired, DomainsRepaired, Devices, Observations,
-    PropertiesRepaired, DeviceProperties, Services, Attributes, Figure8Repaired, TransitionsRepaired,
+    PropertiesRepaired, DeviceProperties, Services, Attributes, Figure8Repaired, TransitionsRepaired, Events,
     name="mms-robot", variant="repaired", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
     consequences=CONSEQUENCES, named=named,
 ):  # fmt: skip

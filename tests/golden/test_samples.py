@@ -33,6 +33,8 @@ FINDINGS: dict[str, list[Told]] = {
         (12, "error", "download.not-begun", ("R-A5.1-3", "R-9.2.2.2.2.1-1")),
         (13, "error", "negotiation.service", UNLISTED),
         (15, "error", "negotiation.service", UNLISTED),
+        # The action R_ARM gives the attributes of R_ARM, and these call it CONTROLLING.
+        (24, "error", "attributes.arm-control", ("R-8.3.1-6", "R-7.3.3.9.2.2-1")),
         (26, "error", "status.paused-unselected", ("R-6.3.4.6-2", "R-7.3.2.1.1.4-1")),
     ],
     "faulty-select.mcap": [
@@ -102,4 +104,4 @@ def test_every_finding_points_to_earlier_messages(name: str) -> None:
 @pytest.mark.slow
 def test_a_whole_shift_without_a_fault_has_no_finding() -> None:
     assert told("production-run.mcap") == []
-    assert audited("production-run.mcap").inputs[0].messages == 348
+    assert audited("production-run.mcap").inputs[0].messages == 349

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import reduce
+from operator import or_
 from typing import Any
 
 from mmsverify.concrete.belief.act import Refusal, settle, take
@@ -24,7 +26,7 @@ from mmsverify.concrete.belief.ready import Rows
 from mmsverify.concrete.belief.resync import forced, learned_anew, sight_lost
 from mmsverify.concrete.belief.several import distinct, widened, written
 from mmsverify.concrete.belief.values import ABSENT, NO, YES, Env, exactly, plain
-from mmsverify.model.expr import Ref
+from mmsverify.model.expr import Expr, Ref
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import MINUS, PLUS, Claim, Clause, Row
 from mmsverify.model.sorts import ElementSort, Enumeration, EnumSort, Sort
@@ -81,6 +83,7 @@ class Belief:
             )
         self._outstanding: dict[str, Outstanding] = {}
         self._watches: dict[str, _Watch] = {}
+        self._shown: Goal | None = None
         self._know(facts or {})
 
     def _know(self, facts: Mapping[Key, Any]) -> None:
@@ -131,6 +134,30 @@ class Belief:
         assert value is not None
         return any(word in map(str, plain(value.known(state), expr.sort)) for state in self.states)
 
+    def says(self, condition: Expr) -> int:
+        """What the belief says of a condition without parameters: ``NO``, ``YES`` or ``EITHER``."""
+        formula = self.ground.formula(condition, {})
+        return reduce(or_, (formula.holds(state) for state in self.states), 0)
+
+    def attains(self, row: Row) -> bool:
+        """Whether what a row shows may hold by now, with all that may have happened unseen."""
+        goal = Goal([row], {}, self.made)
+        ready = self.unseen.before(self.states, "observation", self._outstanding, goal)
+        return bool(self._agreeing(goal, ready)[0])
+
+    @property
+    def shown(self) -> bool:
+        """Whether the last event showed state, rather than changed it."""
+        return self._shown is not None
+
+    def shown_alone(self, condition: Expr) -> bool:
+        """Whether the last event showed the condition, whatever had been before."""
+        if self._shown is None:
+            return False
+        formula = self.ground.formula(condition, {})
+        told = self._agreeing(self._shown, [self.world.blank()])[0]
+        return bool(told) and all(formula.holds(state) == YES for state in told)
+
     def _sorts(self, name: str) -> tuple[Any, ...]:
         if name in self.model.definitions:
             return tuple(ref.of for ref in self.model.definitions[name][0])
@@ -142,6 +169,10 @@ class Belief:
                 self.see(sort, name)
 
     # Events.
+
+    def listen(self) -> None:
+        """A message comes: nothing has been shown by it yet."""
+        self._shown = None
 
     def indicate(self, slot: str, service: str, bindings: Mapping[str, Any]) -> None:
         """A request arrives; it is outstanding from now on.
@@ -244,6 +275,11 @@ class Belief:
         """State is asked for: the answer may show it at any instant from now on."""
         self._watches[slot] = _Watch()
 
+    def watched(self, slot: str) -> int | None:
+        """How many instants an answer may show besides the present; ``None`` where nobody watches."""
+        watch = self._watches.get(slot)
+        return None if watch is None else len(watch.earlier)
+
     def undisturbed(self, slot: str) -> bool:
         """Whether nothing else has been told since ``slot`` was watched; it is watched no more."""
         watch = self._watches.pop(slot, None)
@@ -267,6 +303,7 @@ class Belief:
                 return self._violated(goal, ready, refusals, then=then)
             self.coverage.shown(goal, self.world.blank())
             self._become(agreeing)
+            self._shown = goal
         return Outcome(written=written(earlier, self.states))
 
     def _agreed(self, goal: Goal, states: list[Partial]) -> bool:
