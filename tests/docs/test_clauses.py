@@ -17,7 +17,7 @@ from mmsverify.results import Entry, Register
 ROOT = Path(__file__).resolve().parents[2]
 LITERAL = re.compile(r'"(R-[A-Za-z0-9.]+-[A-Za-z0-9]+)"')
 
-STILL_UNCOVERED = {"mms-robot": 2}
+STILL_UNCOVERED = {"mms-robot": 0}
 """How many checkable statements nothing encodes yet: a number that only goes down, and ends at nought."""
 
 
