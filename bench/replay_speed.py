@@ -2,10 +2,10 @@
 
     python bench/replay_speed.py [MESSAGES [SEED]]
 
-Audited are the shipped samples and a varied conversation with a robot that keeps the rules, made here from the
-model's own rows: requests that are granted and refused, programs that end and fail unseen, an emergency stop,
-local control. Times are CPU seconds of this process; a first audit warms up, so that importing and reading the
-model files is left out.
+Audited are the shipped samples and a varied conversation with a robot that keeps the rules, made here from
+the model's own rows: requests that are granted and refused, programs that end and fail unseen, an emergency
+stop, local control. Times are CPU seconds of this process; a first audit warms up, so that importing and
+reading the model files is left out.
 """
 
 from __future__ import annotations
@@ -38,8 +38,8 @@ from mmsverify.samples.recording import Recording
 
 PROGRAMS = 6
 SERVICES = (
-    "createProgramInvocation", "deleteProgramInvocation", "select", "select", "start", "start", "start", "stop", "resume",
-    "reset", "alterPI", "kill", "vMDStop", "vMDReset",
+    "createProgramInvocation", "deleteProgramInvocation", "select", "select", "start", "start", "start",
+    "stop", "resume", "reset", "alterPI", "kill", "vMDStop", "vMDReset",
 )  # fmt: skip
 SELDOM = {"kill": 0.1, "vMDStop": 0.1, "vMDReset": 0.1, "deleteProgramInvocation": 0.3}
 HIDDEN = frozenset({"destructive", "panel"})
@@ -75,14 +75,21 @@ class Robot:
         """The state in the words of the messages."""
         return readable_state(self.model, self.scope, self.state)
 
-    def taken(self, rows: list[Row], given: dict[str, Any], tries: int = 60) -> tuple[Row, dict[str, Any]] | None:
+    def bindings(self, row: Row, given: dict[str, Any]) -> dict[str, Any]:
+        """The parameters of a row: those that are given, any values for the others."""
+        found = {}
+        for parameter in row.parameters:
+            values = self.scope.parameter_values(row, parameter)
+            found[parameter.name] = given.get(parameter.name, self.random.choice(values) if values else None)
+        return found
+
+    def taken(
+        self, rows: list[Row], given: dict[str, Any], tries: int = 60
+    ) -> tuple[Row, dict[str, Any]] | None:
         """A step of one of the rows, if one is found."""
         for _ in range(tries if rows else 0):
             row = self.random.choice(rows)
-            bindings = {
-                p.name: given[p.name] if p.name in given else self.random.choice(self.scope.parameter_values(row, p))
-                for p in row.parameters
-            }
+            bindings = self.bindings(row, given)
             after = step(row, bindings, self.state, self.scope)
             if after is not None and within_bounds(self.model, self.scope, after):
                 self.state = after
@@ -101,7 +108,7 @@ class Robot:
             hoped = [row for row in hoped if row.answer == PLUS]
         for _ in range(40):
             asked = self.taken(self.rows("indication", service), given, tries=5)
-            said = {**given, **({} if asked is None else asked[1])}
+            said = {**given, **({} if asked is None else asked[1]), **self.limits(service)}
             answered = self.taken(hoped, said, tries=5)
             if answered is not None:
                 break
@@ -112,6 +119,16 @@ class Robot:
         words = {name: readable(held) for name, held in {**said, **bindings}.items()}
         self.say("client", messages.request(self.count, service, words))
         self.say("server", messages.answer(self.count - 1, service, words, row.answer, self.shown()))
+
+    def limits(self, service: str) -> dict[str, Any]:
+        """A running mode as a request can say it: alterPI always gives one, resume as a kind of resuming."""
+        row = next(r for r in self.rows("response", service))
+        if "limit" not in {p.name for p in row.parameters}:
+            return {}
+        parameter = next(p for p in row.parameters if p.name == "limit")
+        values = self.scope.parameter_values(row, parameter)
+        limit = self.random.choice(values if service != "alterPI" else [v for v in values if v is not None])
+        return {"limit": limit, "type_given": limit is not None}
 
     def status(self) -> None:
         """The status is asked for, or told."""
@@ -138,7 +155,8 @@ class Robot:
 
     def talk(self, count: int) -> None:
         """As many messages."""
-        acts: list[Callable[[], None]] = [self.exchange] * 6 + [self.unseen] * 3 + [self.status, self.attributes]
+        acts: list[Callable[[], None]] = [self.exchange] * 6 + [self.unseen] * 3
+        acts += [self.status, self.attributes]
         while self.count < count:
             self.random.choice(acts)()
 

@@ -1,8 +1,8 @@
 """The exact belief about a closed world: every state that some run reaches which shows these events.
 
 It is what beliefs are measured by: explicit sets of states, all rows tried in all orders by the judge,
-nothing joined, nothing left out. Internal rows fire at most once for the same names between two events, as
-beliefs assume; a request may be performed at any instant before its answer.
+nothing joined, nothing left out. Internal rows fire any number of times; a request may be performed at any
+instant before its answer.
 """
 
 from __future__ import annotations
@@ -16,8 +16,6 @@ from mmsverify.concrete import Scope
 from mmsverify.concrete.evaluate import Moment, Valuation, enabled, step, within_bounds
 from mmsverify.model import ModelData
 from mmsverify.model.rows import Row
-from mmsverify.model.sorts import ElementSort
-from mmsverify.model.terms import SetOf
 
 Decisions = frozenset[tuple[str, str]]
 Frozen = tuple[tuple[Any, ...], Decisions]
@@ -65,38 +63,26 @@ class ExactBelief:
             if after is not None and within_bounds(self.model, self.scope, after):
                 yield after
 
-    def _tagged(self, row: Row) -> Iterator[tuple[Any, dict[str, Any]]]:
-        named = [p for p in row.parameters if not isinstance(p, SetOf) and isinstance(p.of, ElementSort)]
-        for names in product(*(self.scope.parameter_values(row, p) for p in named)):
-            yield (row.name, names), dict(zip((p.name for p in named), names, strict=True))
-
     def closed(self) -> set[Frozen]:
         """The states that may hold when the next event comes, whatever happened unseen."""
-        firings = [(row, tag, given) for row in self._rows("internal") for tag, given in self._tagged(row)]
-        todo: list[tuple[Frozen, frozenset[Any]]] = [(state, frozenset()) for state in self.states]
+        internal = self._rows("internal")
+        todo = list(self.states)
         seen = set(todo)
-        while todo:
-            (values, decisions), past = todo.pop()
+        while todo and len(seen) <= self.most:
+            values, decisions = todo.pop()
             state = self.valuation((values, decisions))
-            for row, tag, given in firings:
-                if tag not in past:
-                    for after in self._taken(row, state, given):
-                        self._meet(((self._frozen(after), decisions), past | {tag}), seen, todo)
+            found = {
+                (self._frozen(after), decisions) for row in internal for after in self._taken(row, state, {})
+            }
             for slot, (service, said) in self.asked.items():
                 if slot not in dict(decisions):
                     for row in self._rows("response", service):
-                        for after in self._taken(row, state, said):
-                            decided = decisions | {(slot, row.answer)}
-                            self._meet(((self._frozen(after), decided), past), seen, todo)
-            if len(seen) > self.most:
-                self.gave_up = True
-                break
-        return {state for state, _ in seen}
-
-    def _meet(self, new: Any, seen: set[Any], todo: list[Any]) -> None:
-        if new not in seen:
-            seen.add(new)
-            todo.append(new)
+                        decided = decisions | {(slot, row.answer)}
+                        found |= {(self._frozen(after), decided) for after in self._taken(row, state, said)}
+            todo += found - seen
+            seen |= found
+        self.gave_up = self.gave_up or bool(todo)
+        return seen
 
     def indicate(self, slot: str, service: str, said: Mapping[str, Any]) -> None:
         """A request arrives."""

@@ -84,15 +84,6 @@ def idle(ready: Ready, state: Partial) -> bool:
     return all(within(known, state.get(key)) for key, known in _written(ready.updates, state).items())
 
 
-def maybe(ways: Iterable[Ready], state: Partial, constraints: Constraints) -> Partial:
-    """The state after the row, or as it is: it is not told whether the row was taken."""
-    for each in ways:
-        if not idle(each, state):
-            for after in take([each], state, constraints)[0]:
-                state = state if state.covers(after) else state.joined(after)
-    return state
-
-
 def update(ready: Ready, state: Partial) -> Partial:
     """The state with the row's assignments made in order, all reading the state before.
 

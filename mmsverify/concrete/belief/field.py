@@ -20,11 +20,11 @@ History = frozenset[Tag]
 
 @dataclass(frozen=True, slots=True)
 class Move:
-    """Something that may happen unseen, once between two events for the names in its tag.
+    """Something that may happen unseen, with names.
 
     One of ``ways`` is taken. ``bars`` are the tags' names after which it does not happen. ``explains``: it is
-    assumed only where it makes possible what is shown and was not, not where it merely may have happened. ``stands``
-    tells what stands against it, where that is not in its rows.
+    assumed only where it makes possible what is shown and was not, not where it merely may have happened.
+    ``stands`` tells what stands against it, where that is not in its rows.
     """
 
     tag: Tag
@@ -73,7 +73,7 @@ class Field:
                 self._barred[name] = self._barred.get(name, 0) | bit
 
     def gone(self, history: History) -> int:
-        """The moves that cannot come any more: they have been made, or others bar them.
+        """The moves that cannot come any more: they have been made and come but once, or others bar them.
 
         What one unseen name has done, another may do.
         """

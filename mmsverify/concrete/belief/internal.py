@@ -1,10 +1,10 @@
 """What may have happened unseen before an event: internal rows, requests performed early, acts at the panel.
 
-Each internal row fires at most once for the same names between two events, for unseen names any number of
-times; those that explain an observed
-state only are left out where an answer is to be explained, and nothing more is explained where a state agrees
-with an observation already: what else may have happened may as well happen after it. While somebody at the
-panel holds control, what the panel can change is not known.
+A row that no message shows may fire any number of times. One that explains an observed state only is left
+out where an answer is to be explained; it is assumed once between two events for the same names, and only
+where a state does not allow what is shown. Where a state agrees with an observation, nothing more is
+explained: what else may have happened may as well happen after it. While somebody at the panel holds control,
+what the panel can change is not known.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from dataclasses import dataclass, field, replace
 from itertools import product
 from typing import Any, Literal
 
-from mmsverify.concrete.belief.act import idle, maybe, take
+from mmsverify.concrete.belief.act import idle, take
 from mmsverify.concrete.belief.constraints import Conflict, Constraints
 from mmsverify.concrete.belief.field import Field, History, Move, move
 from mmsverify.concrete.belief.goal import Goal
 from mmsverify.concrete.belief.horizon import Reach, reach
 from mmsverify.concrete.belief.partial import DECIDED, Key, Partial
-from mmsverify.concrete.belief.ready import Rows
+from mmsverify.concrete.belief.ready import Ready, Rows
 from mmsverify.concrete.belief.several import changed, distinct
 from mmsverify.concrete.belief.values import ABSENT, NO, YES, Env, within
 from mmsverify.model.model import ModelData
@@ -80,6 +80,7 @@ class Unseen:
     constraints: Constraints
     made: Rows
     _memo: dict[tuple[Any, ...], list[Partial]] = field(default_factory=dict)
+    _steps: dict[tuple[Ready, Partial], list[Partial]] = field(default_factory=dict)
     _fields: dict[tuple[Any, ...], Field] = field(default_factory=dict)
     _horizons: dict[tuple[Any, ...], Reach] = field(default_factory=dict)
 
@@ -93,6 +94,7 @@ class Unseen:
     def forget(self) -> None:
         """Drop what was remembered: a new name has been seen."""
         self._memo.clear()
+        self._steps.clear()
         self._fields.clear()
         self._horizons.clear()
 
@@ -130,20 +132,37 @@ class Unseen:
         while level and len(seen) < LARGEST:
             found: list[Reached] = []
             for state, past in level:
-                tried, beside = moves.next(state, past, goal)
-                blurred = _blurred(state, beside, self.constraints)
+                blurred, tried = self._blurred(state, past, moves, goal)
                 seen.append((blurred, past))
                 found += self._after(blurred, past, tried, moves, goal)
             level = [new for new in self._joined(found) if not any(_covers(old, new) for old in seen)]
         unbounded = self._anything(start, moves) if level else []
         return distinct([*(state for state, _ in seen), *unbounded])
 
+    def _blurred(self, state: Partial, past: History, moves: Field, goal: Goal) -> tuple[Partial, list[Move]]:
+        """The state after any moves that merely disturb, or none, and the moves to try in it.
+
+        What they may change is as it was, or as they make it.
+        """
+        for _ in range(MOST_ROUNDS):
+            tried, beside = moves.next(state, past, goal)
+            before = state
+            for each in beside:
+                for after in self._made(each, state):
+                    state = state if state.covers(after) else state.joined(after)
+            if state is before:
+                return state, tried
+        world = state.world
+        touched = {place.key[0] for each in moves.moves for place in world.changed(each.writes)}
+        state = state.forget(touched)
+        return state, moves.next(state, past, goal)[0]
+
     def _after(
         self, state: Partial, past: History, tried: Sequence[Move], moves: Field, goal: Goal
     ) -> Iterator[Reached]:
         """The states after one move more, without those from which there is no way to the goal."""
         for each in tried:
-            history = past | {each.tag}
+            history = past | {each.tag} if each.explains or each.tag[0] in self._bars else past
             horizon = self._horizon(moves, history)
             for after in self._made(each, state):
                 if each.explains and not _explained(state, after, moves, goal):
@@ -156,12 +175,23 @@ class Unseen:
             forgotten = self.constraints.everywhere(state.forget(self._panel))
             if not isinstance(forgotten, Conflict):
                 yield forgotten
-            return
-        for way in each.ways:
-            if each.tag[0] != PERFORMED and idle(way, state):
-                continue
-            for after in take([way], state, self.constraints)[0]:
-                yield after.put((DECIDED, each.tag[1]), way.row.answer) if each.tag[0] == PERFORMED else after
+        elif each.tag[0] == PERFORMED:
+            for way in each.ways:
+                for after in take([way], state, self.constraints)[0]:
+                    yield after.put((DECIDED, each.tag[1]), way.row.answer)
+        else:
+            for way in each.ways:
+                yield from self._taken(way, state)
+
+    def _taken(self, way: Ready, state: Partial) -> list[Partial]:
+        """The states that the row leads to beyond ``state``; often asked, for events leave it waiting."""
+        key = (way, state)
+        found = self._steps.get(key)
+        if found is None:
+            if len(self._steps) > LARGEST_MEMO:
+                self._steps.clear()
+            found = self._steps[key] = [] if idle(way, state) else take([way], state, self.constraints)[0]
+        return found
 
     def _anything(self, state: Partial, moves: Field) -> list[Partial]:
         """Too much may have happened to follow it step by step: nothing is known of what it could change."""
@@ -190,10 +220,10 @@ class Unseen:
 
     def _horizon(self, moves: Field, history: History) -> Reach:
         """What may still change after these moves."""
-        key = (id(moves), frozenset(tag for tag in history if not tag[1] or tag[0] in self._bars))
+        key = (id(moves), history)
         found = self._horizons.get(key)
         if found is None:
-            gone = moves.gone(key[1])
+            gone = moves.gone(history)
             left = [each for number, each in enumerate(moves.moves) if not gone >> number & 1]
             found = reach((way for each in left for way in each.ways), self.constraints.world)
             if any(each.tag[0] == PANEL for each in left):
@@ -209,6 +239,9 @@ class Unseen:
         control = bool(world.mask(SHOWS_CONTROL & world.full.keys()) & goal.reads)
         key = (evidence, asked, control)
         if key not in self._fields:
+            if len(self._fields) > LARGEST:
+                self._fields.clear()
+                self._horizons.clear()
             rows = [r for r in self._rows[evidence] if control or CONTROL[0] not in r.writes]
             self._fields[key] = Field([*self._moves(rows), *map(self._performing, asked), *self._at_panel()])
         return self._fields[key]
@@ -259,22 +292,6 @@ class Unseen:
             env = dict(zip((name for name, _ in ranged), values, strict=True))
             found.setdefault(tuple(v for v in values if isinstance(v, str)), []).append(env)
         return found
-
-
-def _blurred(state: Partial, beside: Sequence[Move], constraints: Constraints) -> Partial:
-    """The state after any of these moves, or none: what they may change is as it was, or as they make it."""
-    before = None
-    rounds = 0
-    while state is not before:
-        before = state
-        rounds += 1
-        for each in beside:
-            if each.obstacle(state) is None:
-                state = maybe(each.ways, state, constraints)
-        if rounds > MOST_ROUNDS:
-            world = state.world
-            return state.forget(place.key[0] for each in beside for place in world.changed(each.writes))
-    return state
 
 
 def _explained(before: Partial, after: Partial, moves: Field, goal: Goal) -> bool:
