@@ -36,8 +36,8 @@ from mmsverify.model.terms import all_of, answered, any_of, for_all, for_some, i
 __all__ = [
     "BOOL", "MINUS", "PLUS", "Always", "Assume", "Claim", "Clause", "Conjunct", "Derived", "Each",
     "Enumeration", "Initially", "Model", "ModelData", "Observation", "Occurrence", "Occurs", "On",
-    "Procedure", "Relation", "Removed", "Row", "Sometimes", "Step", "Transition", "Unspecified", "Variable",
-    "accept", "all_of", "answered", "any_of", "assemble", "do", "for_all", "for_each", "for_some", "if_", "indication", "integer", "internal",
-    "load", "load_variants", "may", "needs", "optional", "parameter", "refuse", "repaired", "response",
-    "service_is", "shown", "unchanged",
+    "Procedure", "Relation", "Removed", "Row", "Sometimes", "Step", "Transition", "Unspecified",
+    "Variable", "accept", "all_of", "answered", "any_of", "assemble", "do", "for_all", "for_each",
+    "for_some", "if_", "indication", "integer", "internal", "load", "load_variants", "may", "needs",
+    "optional", "parameter", "refuse", "repaired", "response", "service_is", "shown", "unchanged",
 ]  # fmt: skip
