@@ -11,7 +11,7 @@ from robot import VARIANTS, robot
 from mmsverify.model import Clause
 
 FORM = re.compile(r"R-(F|[AT]?[0-9]+(\.[0-9]+)*)-[A-Za-z0-9]+$|R-T[0-9]+-[0-9]+$")
-READING = re.compile(r"RP-[0-2][0-9]$|B-[A-Z]+(-[A-Z]+)?$")
+READING = re.compile(r"RP-[0-3][0-9]$|B-[A-Z]+(-[A-Z]+)?$")
 
 
 def citations(variant: str) -> Iterator[Clause]:
