@@ -71,7 +71,6 @@ class DeviceProperties(Vocabulary):
     panel_needs_local_control = Step(
         "R-5.3.1.4-3", (panel & ~local_control()) >> unchanged(state, control, controls, controller, selected, motion, mode, cycles, steps),
         says="nobody at the panel stops or modifies a task program without local control")  # fmt: skip
-    local_state_changes = Sometimes("R-T1-N", local_control() & (robot_state().next != robot_state()))
     remote_has_control = Sometimes("R-5.3.1.4-4", ~local_control() & for_some(u)(holder[u]))
     nobody_has_control = Sometimes(
         "R-6.1.3.2.5-2", ~local_control() & for_some(p)(selected[p] & runs[p]) & ~for_some(u)(holder[u])
