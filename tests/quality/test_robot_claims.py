@@ -131,6 +131,7 @@ WORLDS = (
     World({"PI": 2, "Domain": 2}, {"predefined": [ARM, CALIBRATION]}),
     World({"PI": 2, "Domain": 1}, {"predefined": [ARM, OTHER]}),
     World({"PI": 1, "Client": 2}, {"predefined": [ARM], "associations": "multiple"}),
+    World({"PI": 1}, {"predefined": [], "single_task": True}),
 )
 # As written, c2) of Start ends before f): no motion is enabled.
 VACUOUS = {
