@@ -14,7 +14,7 @@ from mmsverify.audit.telling import Place
 from mmsverify.concrete.belief import Belief
 from mmsverify.concrete.belief.coverage import Coverage
 from mmsverify.concrete.belief.partial import OTHER
-from mmsverify.errors import DecodeError, UsageError
+from mmsverify.errors import DecodeError, ProfileError, UsageError
 from mmsverify.formats import mms
 from mmsverify.formats.mcap import McapTrace
 from mmsverify.formats.trace import TraceMessage
@@ -65,8 +65,16 @@ class Replay:
             _, facts = scenario(sizes, self.profile)
             # R_CAL is a predefined name (8.3.2): of what the profile does not predefine nothing calibrates.
             facts = {**facts, ("calibrates", (OTHER,)): False}
+            # Lists at power-on tell nothing of a recording that may begin at any time.
+            facts = {key: held for key, held in facts.items() if key[0] != "predefined_controls"}
             base = frozenset(name for owner, name in self._base_only if owner == vmd)
             belief = Belief(self.model, facts, self._proved())
+            if not belief.states:
+                raise ProfileError(
+                    "no robot can have what the profile says: it contradicts what the standard fixes",
+                    place=self.trace.path,
+                    cure="run mmsverify check mms-robot with this profile: it names the clause",
+                )
             self.coverage.append(belief.coverage)
             self._devices[vmd] = Device(Place(self.trace.path, vmd), belief, self._arms(), base)
         return self._devices[vmd]
@@ -76,14 +84,9 @@ class Replay:
         return self.model.always if self.model.variant == PROVED else ()
 
     def _arms(self) -> frozenset[str]:
-        """The domains that represent an arm: those of the program invocations that the profile calls arms."""
-        arms = set(self.profile.get("arms", ()))
-        return frozenset(
-            d
-            for entry in self.profile.get("predefined", ())
-            if entry["name"] in arms
-            for d in entry.get("domains", ())
-        )
+        """The domains that represent an arm: those of the arms among the devices of the profile."""
+        devices = self.profile.get("devices", ())
+        return frozenset(device["domain"] for device in devices if device["kind"] == "arm")
 
 
 def _link(message: TraceMessage) -> tuple[str, str] | None:

@@ -12,12 +12,15 @@ from mmsverify.checking.proofs import Proofs
 from mmsverify.checking.request import Progress, Request, require_known, require_sorts
 from mmsverify.checking.runs import Explorer
 from mmsverify.checking.worlds import World, small_worlds
+from mmsverify.errors import ProfileError
+from mmsverify.model.expr import Expr
 from mmsverify.model.load import load, names
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Claim
 from mmsverify.profiles import ROBOT_TABLE, judge, load_profile, stated
 from mmsverify.resources import models_dir
 from mmsverify.results import ModelCheck, ProfileFinding, Verdict
+from mmsverify.symbolic.consistency import contradicted
 from mmsverify.symbolic.overlap import Coverage
 
 FIRST_LOOK, SECOND_LOOK, LONG_LOOK, WHOLE_SCOPE = 40_000, 100_000, 400_000, 200_000
@@ -79,6 +82,17 @@ def check_model(model: ModelData, request: Request, progress: Progress = None) -
     return ModelCheck(model.name, model.variant, found, tuple(notes), request.judged)
 
 
+def _require_possible(model: ModelData, facts: Sequence[Expr]) -> None:
+    """Refuse a profile that contradicts what the model assumes of every robot: it would prove every claim."""
+    broken = contradicted(model, facts) if facts else None
+    if broken is not None:
+        raise ProfileError(
+            f"no {model.name} ({model.variant}) can have it: {' '.join(broken.clause.ids)} forbids it",
+            place="--profile",
+            cure="mend the profile",
+        )
+
+
 def _made_of(model: ModelData, claim: Claim, request: Request) -> bool:
     """Whether the claim is made of robots with the profile asked for; without one, every claim is."""
     if request.profile is None:
@@ -99,7 +113,9 @@ class _Check:
 
     def __init__(self, model: ModelData, request: Request, progress: Progress) -> None:
         self.model, self.request, self.progress = model, request, progress
-        self.proofs = Proofs(model, request.timeout, assumed(model, request.profile))
+        facts = assumed(model, request.profile)
+        _require_possible(model, facts)
+        self.proofs = Proofs(model, request.timeout, facts)
         self.explorer = Explorer(model, request, progress)
         self.refuted: set[str] = set()
 

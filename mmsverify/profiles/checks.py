@@ -50,9 +50,8 @@ def devices(table: Table, *kinds: str) -> list[Table]:
 
 
 def arm_domains(table: Table) -> frozenset[str]:
-    """The domains that represent an arm: those of the arm devices, and those of the arm programs."""
-    bound = {d for e in table["predefined"] if e["name"] in table["arms"] for d in e["domains"]}
-    return frozenset(bound | {device["domain"] for device in devices(table, "arm")} - {""})
+    """The domains that represent an arm."""
+    return frozenset({device["domain"] for device in devices(table, "arm")} - {""})
 
 
 def several(names: list[str]) -> list[str]:

@@ -84,7 +84,10 @@ def domain_facts(
 
 
 def _arms(profile: Mapping[str, Any]) -> tuple[str, ...]:
-    """The domains that represent robot arms (6.2.1): those of the program invocations that operate them."""
+    """The domains that represent robot arms (6.2.1): those of the devices that are told, else of the arm programs."""
+    told = [device["domain"] for device in profile.get("devices", ()) if device["kind"] == "arm"]
+    if told:
+        return tuple(dict.fromkeys(told))
     arms = profile.get("arms", ["R_ARM"])
     entries = [entry for entry in profile.get("predefined", DEFAULT) if entry["name"] in arms]
     return tuple(dict.fromkeys(d for entry in entries for d in entry.get("domains", ()))) or ("R_ARM",)

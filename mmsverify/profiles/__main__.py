@@ -1,0 +1,5 @@
+"""``python -m mmsverify.profiles > docs/profiles.md``: write the page about profiles."""
+
+from mmsverify.profiles.page import page
+
+print(page(), end="")
