@@ -1,4 +1,4 @@
-"""Whether facts can hold under a model's assumptions: a proof from facts that cannot would prove everything."""
+"""Whether facts can hold under a model's assumptions: from facts that cannot, everything would follow."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from mmsverify.symbolic.translate import Translator
 
 
 def contradicted(model: ModelData, facts: Sequence[Expr]) -> Conjunct | None:
-    """The first assumption that cannot hold beside the facts and the assumptions before it, if there is one."""
+    """The first assumption that cannot hold beside the facts and the assumptions before it, if any."""
     translator = Translator(model)
     solver = z3.Solver()
     solver.add(*(translator.formula(fact) for fact in facts))

@@ -54,7 +54,7 @@ REFUSED = [
     ("R-5.3.1.3.3.4-2", {"predefined": [TASK, OTHER], "single_task": True}, "TASK and OTHER are predefined"),
 ]  # fmt: skip
 
-BREACHES = [
+BREACHES: list[tuple[str, str, dict[str, Any]]] = [
     ("profile.bound", "R-8.3.1-2", {"predefined": [{**ARM, "domains": ["X"]}]}),
     ("profile.bound", "R-8.3.1-1", {"predefined": [{**ARM, "domains": ["R_ARM", "X"]}]}),
     ("profile.bound", "R-8.3.2-1", {"predefined": [{**CAL, "domains": []}]}),
