@@ -40,7 +40,6 @@ def proved_claims(model: ModelData) -> Sequence[Claim]:
     """The claims that are proved by induction, with the sharper ones that their proofs rest on."""
     proofs = Proofs(model)
     claims = [claim for claim in model.claims if claim.kind != "sometimes"]
-    proofs.attempt(claims)
-    proofs.sharpen([c for c in claims if c.name not in proofs.proved], claims)
+    proofs.prove(claims)
     steps = [c for c in claims if c.kind == "step" and c.name in proofs.proved]
     return [*proofs.invariants, *steps]

@@ -44,6 +44,11 @@ class Proofs:
         if claims:
             self.attempt([*claims, *sharpened([c for c in sources if c.name not in self.proved])])
 
+    def prove(self, claims: Sequence[Claim]) -> None:
+        """Attempt the claims, then those that are left open beside sharper ones made from them."""
+        self.attempt(claims)
+        self.sharpen([c for c in claims if c.name not in self.proved], claims)
+
     def refute(self, claim: Claim) -> bool:
         """Whether a ``Sometimes`` is proved to be out of reach: its negation is inductive."""
         never = negated(claim)

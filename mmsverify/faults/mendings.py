@@ -17,9 +17,7 @@ class Mended:
         self.model = model
         self._stated = {claim.name for claim in model.claims}
         proofs = Proofs(model)
-        lasting = [claim for claim in model.claims if claim.kind != "sometimes"]
-        proofs.attempt(lasting)
-        proofs.sharpen([c for c in lasting if c.name not in proofs.proved], lasting)
+        proofs.prove([claim for claim in model.claims if claim.kind != "sometimes"])
         self._proved = proofs.proved
 
     def mendings(self, claim: Claim, breaches: Sequence[Breach]) -> Iterator[Mending]:

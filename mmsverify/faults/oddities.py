@@ -11,7 +11,7 @@ from itertools import chain
 from mmsverify.checking.proofs import Proofs
 from mmsverify.checking.verdicts import statement
 from mmsverify.model.model import ModelData
-from mmsverify.model.rows import Claim, Row
+from mmsverify.model.rows import Claim
 from mmsverify.results import Oddity
 from mmsverify.symbolic.overlap import Coverage
 from mmsverify.symbolic.suspects import Suspects
@@ -21,11 +21,12 @@ def oddities(
     model: ModelData, claims: Sequence[Claim], proofs: Proofs, suspects: Suspects
 ) -> Iterator[Oddity]:
     """All of them, those that are proved first."""
+    coverage = Coverage(model, proofs.invariants)
     yield from chain(
         _unreachable(claims, proofs),
         _dead(suspects),
-        _overlaps(Coverage(model, proofs.invariants), model),
-        _unanswered(Coverage(model, proofs.invariants), model),
+        _overlaps(coverage, model),
+        _unanswered(coverage, model),
         _declared(model),
         _choices(model),
     )
@@ -52,15 +53,11 @@ def _overlaps(coverage: Coverage, model: ModelData) -> Iterator[Oddity]:
     rows = {row.id: row for row in model.actions}
     for overlap in coverage.overlaps():
         left, right = (rows[name] for name in overlap.rows)
-        if left.answer != right.answer or not _same_procedure(left, right):
+        if left.answer != right.answer or left.name != right.name:
             both = tuple(dict.fromkeys(left.clause.ids + right.clause.ids))
             apart = " and ".join(f"{row.id} ({row.answer})" for row in (left, right))
             what = f"{overlap.event}: {apart} both apply in some state."
             yield Oddity("contradiction", f"{left.id} and {right.id}", both, what)
-
-
-def _same_procedure(left: Row, right: Row) -> bool:
-    return left.name == right.name
 
 
 def _unanswered(coverage: Coverage, model: ModelData) -> Iterator[Oddity]:

@@ -45,8 +45,7 @@ class _Survey:
     def survey(self) -> Survey:
         self._tell("proving what holds")
         lasting = [claim for claim in self.claims if claim.kind != "sometimes"]
-        self.proofs.attempt(lasting)
-        self.proofs.sharpen([c for c in lasting if c.name not in self.proofs.proved], lasting)
+        self.proofs.prove(lasting)
         suspects = Suspects(self.model, self.proofs.invariants)
         open_claims = [c for c in lasting if c.name not in self.proofs.proved]
         asked = [pair for c in open_claims for pair in pairs(self.model, c, suspects.breakers(c))]
