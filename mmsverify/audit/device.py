@@ -6,7 +6,7 @@ it announces in ``notifications``; how a finding is made in ``telling``.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from mmsverify.audit import contents
 from mmsverify.audit.acquaintance import Acquaintance
@@ -35,13 +35,20 @@ class Device:
     """The replay of one robot's messages.
 
     ``arms`` are the domains of its arms; to associations in ``base_only`` the robot standard does not apply.
+    In the spans of indices ``blind``, what the recording does not show may still be performed.
     """
 
     def __init__(
-        self, place: Place, belief: Belief, arms: frozenset[str], base_only: frozenset[str] = frozenset()
+        self,
+        place: Place,
+        belief: Belief,
+        arms: frozenset[str],
+        base_only: frozenset[str] = frozenset(),
+        blind: Sequence[tuple[int, int]] = (),
     ) -> None:
         self.belief = belief
         self.base_only = base_only
+        self._blind = tuple(blind)
         self._associations: dict[str, Association] = {}
         self._acquaintance = Acquaintance(belief.world.names["ProgramInvocation"])
         self._telling = Telling(place)
@@ -60,9 +67,7 @@ class Device:
         if event == "gap":
             lost = association.gap()
             if connection not in self.base_only:
-                self.belief.lose_sight()
-                self._acquaintance.lose()
-                self._notifications.lose()
+                self._lose_sight()
         elif event in ("close", "reset"):
             if association.alarm:
                 lost_after = Breach("association.lost-after-stop", {"cause": association.alarm})
@@ -74,6 +79,12 @@ class Device:
             association.reopen()
             return
         self._drop(lost)
+
+    def _lose_sight(self) -> None:
+        """Something that the recording does not show may have happened."""
+        self.belief.lose_sight()
+        self._acquaintance.lose()
+        self._notifications.lose()
 
     def _drop(self, lost: list[Asked]) -> None:
         for asked in lost:
@@ -108,6 +119,8 @@ class Device:
                 yield found
         for late in self._notifications.note(name, message):
             yield from self._telling.breach(message, late)
+        if any(first <= message.index <= last for first, last in self._blind):
+            self._lose_sight()
 
     def _judge(self, association: Association, side: str, pdu: Pdu, message: TraceMessage) -> Told:
         robot = self._is_robot(association)

@@ -5,19 +5,17 @@ What a message means to its device is told in ``device``.
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from mmsverify.audit.device import Device
+from mmsverify.audit.lookahead import Lookahead, link
 from mmsverify.audit.telling import Place
 from mmsverify.concrete.belief import Belief
 from mmsverify.concrete.belief.coverage import Coverage
 from mmsverify.concrete.belief.partial import OTHER
-from mmsverify.errors import DecodeError, ProfileError, UsageError
-from mmsverify.formats import mms
+from mmsverify.errors import ProfileError, UsageError
 from mmsverify.formats.mcap import McapTrace
-from mmsverify.formats.trace import TraceMessage
 from mmsverify.model import Claim, ModelData, load
 from mmsverify.resources import models_dir
 from mmsverify.results import Finding
@@ -41,7 +39,7 @@ class Replay:
         self.messages = self.events = self.skipped = 0
         self.coverage: list[Coverage] = []
         self._devices: dict[str, Device] = {}
-        self._base_only = _base_only(trace)
+        self._ahead = Lookahead(trace)
 
     def run(self) -> Iterator[Finding]:
         """The findings, in event order."""
@@ -50,9 +48,9 @@ class Replay:
             if message.message_encoding == "mms-ber":
                 self.events += 1
                 yield from self._device(message.metadata.get("vmd", "")).message(message)
-            elif (link := _link(message)) is not None:
+            elif (happened := link(message)) is not None:
                 self.events += 1
-                yield from self._device(message.metadata.get("name", "")).link(*link, message)
+                yield from self._device(message.metadata.get("name", "")).link(*happened, message)
             else:
                 self.skipped += 1
 
@@ -67,7 +65,7 @@ class Replay:
             facts = {**facts, ("calibrates", (OTHER,)): False}
             # Lists at power-on tell nothing of a recording that may begin at any time.
             facts = {key: held for key, held in facts.items() if key[0] != "predefined_controls"}
-            base = frozenset(name for owner, name in self._base_only if owner == vmd)
+            base = frozenset(name for owner, name in self._ahead.base_only if owner == vmd)
             belief = Belief(self.model, facts, self._proved())
             if not belief.states:
                 raise ProfileError(
@@ -76,7 +74,8 @@ class Replay:
                     cure="run mmsverify check mms-robot with this profile: it names the clause",
                 )
             self.coverage.append(belief.coverage)
-            self._devices[vmd] = Device(Place(self.trace.path, vmd), belief, self._arms(), base)
+            place = Place(self.trace.path, vmd)
+            self._devices[vmd] = Device(place, belief, self._arms(), base, self._ahead.blind(vmd))
         return self._devices[vmd]
 
     def _proved(self) -> tuple[Claim, ...]:
@@ -89,53 +88,7 @@ class Replay:
         return frozenset(device["domain"] for device in devices if device["kind"] == "arm")
 
 
-def _link(message: TraceMessage) -> tuple[str, str] | None:
-    """The connection of an MMS link and what happens to it; ``None`` where the message tells of none."""
-    if message.schema_name != "link.Event":
-        return None
-    try:
-        event = json.loads(message.data)
-        connection, what, role = event["connection"], event["event"], event["role"]
-    except (ValueError, KeyError, TypeError):
-        return None
-    return (str(connection), str(what)) if role == "mms" else None
-
-
 def _robot_model(model: str | None) -> str:
     if model not in (None, ROBOT):
         raise UsageError(f"no model {model!r} replays recordings", place="--model", cure=f"use {ROBOT}")
     return ROBOT
-
-
-def _base_only(trace: McapTrace) -> frozenset[tuple[str, str]]:
-    """The associations of devices that are no robots, each with its device.
-
-    Their Initiate shows no additional services, and no robot detail follows.
-    """
-    begun: dict[tuple[str, str], bool] = {}
-    for message in trace:
-        if message.message_encoding != "mms-ber":
-            continue
-        key = (message.metadata.get("vmd", ""), message.metadata.get("association", ""))
-        if message.data[:1] in (b"\xa8", b"\xa9"):
-            begun[key] = begun.get(key, False) or _offers_additional(message.data)
-        elif key in begun and not begun[key] and (b"\xbf\x4f" in message.data or b"\xbf\x4e" in message.data):
-            begun[key] = _has_detail(message.data)
-    return frozenset(key for key, robot in begun.items() if not robot)
-
-
-def _offers_additional(octets: bytes) -> bool:
-    try:
-        body = mms.decode(octets).body
-    except DecodeError:
-        return True
-    details: Iterable[Any] = (body.get("initRequestDetail"), body.get("initResponseDetail"))
-    return any(detail and any(key.startswith("additionalSupported") for key in detail) for detail in details)
-
-
-def _has_detail(octets: bytes) -> bool:
-    try:
-        pdu = mms.decode(octets)
-    except DecodeError:
-        return False
-    return pdu.detail is not None or pdu.service in ("select", "vMDStop", "vMDReset", "alterPI")

@@ -7,7 +7,8 @@ from math import inf
 from random import Random
 from typing import Any
 
-from robot_talk import ASSOCIATING, LOOKS, Act, Talk, row_name
+from robot_acts import LOOKS, Act
+from robot_talk import ASSOCIATING, Talk, row_name
 
 from mmsverify.checking.domain_messages import FROM_ROBOT
 from mmsverify.concrete import Scope, scope_for
@@ -75,10 +76,16 @@ class Chance:
         return all(self.scope.parameter_values(row, parameter) for parameter in row.parameters)
 
     def hold(self, count: int) -> Talk:
-        """A conversation of ``count`` messages."""
+        """A conversation of ``count`` messages or a few more: what must be answered is."""
         while len(self.talk.messages) < count:
             self.act()
-        del self.talk.messages[count:]
+        self.talk.settle()
+        return self.talk
+
+    def join_late(self, count: int) -> Talk:
+        """``count`` messages are said that no recording has."""
+        while len(self.talk.messages) < count or not self.talk.do(Act("late")):
+            self.act()
         return self.talk
 
     def act(self) -> None:

@@ -8,10 +8,10 @@ and what remains is conforming by its making.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from robot_acts import LOOKS, Act, Pending
 from robot_recording import Link, Message, Said, write
 
 from mmsverify.audit import robot as adapter
@@ -37,54 +37,6 @@ OUTSTANDING = 5
 SERVICES = (*OFFERED["server"], "loadDomainContent", "storeDomainContent")
 ASSOCIATING = {"initiate": "open", "release": "close"}
 """Rows that answer to no confirmed request, and the act that performs each."""
-
-LOOKS = {
-    "status": ("status",),
-    "getProgramInvocationAttributes": (
-        "getProgramInvocationAttributes",
-        "noProgramInvocationAttributes",
-        "listOfDomainNames",
-    ),
-    "getDomainAttributes": ("getDomainAttributes", "noDomainAttributes"),
-    "read": (*messages.OF_VMD, *messages.OF_DEVICE, "R_DCAL", "readTogether"),
-    "reportSemaphoreStatus": ("ownedTokens", "hungTokens"),
-}
-"""Services that show state, with the observations of the model that their answers are."""
-
-IN_REFUSALS = ("stateAfterFailure",)
-"""Observations that stand in the answers of other services."""
-
-IN_REQUESTS = ("downloadSegmentAsked", "terminateDownloadSequenceAsked")
-"""Observations that are requests of the robot."""
-
-
-@dataclass(frozen=True, slots=True)
-class Act:
-    """One thing that happens.
-
-    ``kind`` is ``open``, ``close``, ``reset``, ``ask``, ``serve``, ``perform``, ``answer``, ``happen``,
-    ``tell``, ``look`` or ``gap``; ``who`` an association or a request, ``what`` a service or a row.
-    """
-
-    kind: str
-    who: str = ""
-    what: str = ""
-    given: Mapping[str, Any] = field(default_factory=dict)
-
-    def __str__(self) -> str:
-        shown = " ".join(f"{k}={readable(v)}" for k, v in self.given.items() if v is not None)
-        return " ".join(part for part in (self.kind, self.who, self.what, shown) if part)
-
-
-@dataclass
-class Pending:
-    """A request on its way, and its answer once the robot has decided."""
-
-    user: str
-    invoke_id: int
-    service: str
-    asked: Mapping[str, Any]
-    answer: Pdu | None = None
 
 
 class Talk:
@@ -155,7 +107,7 @@ class Talk:
 
     def _reset(self, act: Act) -> bool:
         """The connection is lost, and with it what was asked."""
-        if not self._released(act):
+        if self.owes(act.who) or not self._released(act):
             return False
         self.pending = {slot: p for slot, p in self.pending.items() if p.user != act.who}
         self.messages.append(Link(act.who, "reset"))
@@ -277,12 +229,36 @@ class Talk:
         if (act.what == "begin") is (self.lost_from is not None):
             return False
         if self.lost_from is None:
+            if any(map(self.owes, self.open)):
+                return False
             self.lost_from = len(self.messages)
             return True
-        del self.messages[self.lost_from :]
+        self._lost(self.lost_from)
         self.messages += [Link(user, "gap") for user in self.open]
         self.lost_from = None
         return True
+
+    def _late(self, _act: Act) -> bool:
+        """The recording begins only here, in mid-operation."""
+        if self.lost_from is not None:
+            return False
+        self._lost(0)
+        return True
+
+    def _lost(self, begin: int) -> None:
+        del self.messages[begin:]
+        for request in self.pending.values():
+            request.missed = True
+
+    def owes(self, user: str) -> bool:
+        """Whether an answer to that client must stand in the recording and does not yet."""
+        return any(p.owed for p in self.pending.values() if p.user == user)
+
+    def settle(self) -> None:
+        """The answers that the recording must hold come."""
+        for slot, request in list(self.pending.items()):
+            if request.owed and self.lost_from is None:
+                self.do(Act("answer", slot))
 
     # What is seen.
 
@@ -352,9 +328,9 @@ class Talk:
         shown = readable_state(self.model, self.scope, self._start, rigid=True)
         return profile_of(PathStep("initially", {}, (), shown))
 
-    def write(self, path: Path, begin: int = 0) -> Path:
-        """The recording from message ``begin`` on."""
-        return write(path, self.profile(), self.messages[begin : self.lost_from])
+    def write(self, path: Path) -> Path:
+        """The recording."""
+        return write(path, self.profile(), self.messages[: self.lost_from])
 
 
 def row_name(row: Row) -> str:
@@ -367,6 +343,7 @@ def retold(talk: Talk, acts: Sequence[Act]) -> Talk:
     made = Talk(talk.model, talk.scope, talk._start)
     for act in acts:
         made.do(act)
+    made.settle()
     return made
 
 

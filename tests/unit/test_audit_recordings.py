@@ -17,7 +17,7 @@ from mmsverify.samples.pdus import controlled, controlling, initiation, of_domai
 from mmsverify.samples.recording import Recording
 
 LOADED, READY, EXECUTING = "robot-loaded", "robot-ready", "robot-executing"
-Listen = Callable[[Recording], Audit]
+Listen = Callable[..., Audit]
 
 
 @pytest.fixture
@@ -65,6 +65,43 @@ def test_a_gap_forgets_what_was_known(listen: Listen) -> None:
     made.recording.link(made.name, "gap")
     made.start("OTHER", cycles=1)
     assert rules(listen(made.recording)) == []
+
+
+def moved_unasked(made: Cell) -> None:
+    made.status(READY, "TASK")
+    made.status(EXECUTING, "TASK")
+
+
+@pytest.mark.parametrize("lost", [None, "gap"])
+def test_what_a_recording_lacks_may_be_performed_until_it_is_answered(listen: Listen, lost: Any) -> None:
+    made = cell(begun=lost is not None)
+    if lost is not None:
+        made.recording.link(made.name, lost)
+    moved_unasked(made)
+    made.recording.say(made.name, "server", Pdu("confirmed-ResponsePDU", 99, "start", None))
+    assert rules(listen(made.recording)) == []
+
+
+def test_what_was_answered_already_is_not_performed_again_unseen(listen: Listen) -> None:
+    made = cell(begun=False)
+    asked = made.ask("kill", {"programInvocationName": "OTHER"})
+    made.refuse(asked, ("access", "object-non-existent"))
+    moved_unasked(made)
+    made.refuse(asked, ("access", "object-non-existent"))
+    assert len(rules(listen(made.recording))) == 1
+
+
+def test_what_waits_during_a_gap_may_have_been_performed_before_its_end(listen: Listen) -> None:
+    """TASK may have been killed, and created and selected again, before the answer comes."""
+    made = cell()
+    other = Cell(made.recording, "other")
+    other.begin()
+    asked = other.ask("kill", {"programInvocationName": "TASK"})
+    made.recording.link(made.name, "gap")
+    made.status(READY, "TASK")
+    other.answer(asked, "kill")
+    made.status(READY, "TASK")
+    assert rules(listen(made.recording, associations="multiple")) == []
 
 
 def test_a_refusal_that_nothing_explains_is_a_warning(listen: Listen) -> None:

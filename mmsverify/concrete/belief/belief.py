@@ -19,7 +19,7 @@ from mmsverify.concrete.belief.constraints import Conflict, Constraints
 from mmsverify.concrete.belief.coverage import Coverage
 from mmsverify.concrete.belief.goal import Goal
 from mmsverify.concrete.belief.ground import Ground, negated
-from mmsverify.concrete.belief.internal import Outstanding, Unseen, decided, undecided
+from mmsverify.concrete.belief.internal import Outstanding, Unseen, decided, not_accepted, undecided
 from mmsverify.concrete.belief.nodes import Formula
 from mmsverify.concrete.belief.partial import OTHER, Key, Partial, World
 from mmsverify.concrete.belief.ready import Rows
@@ -82,6 +82,7 @@ class Belief:
                 row,
             )
         self._outstanding: dict[str, Outstanding] = {}
+        self._unsure: set[str] = set()
         self._watches: dict[str, _Watch] = {}
         self._shown: Goal | None = None
         self._know(facts or {})
@@ -180,6 +181,7 @@ class Belief:
         Where the model has a transient state of the service, it is entered.
         """
         self._remember(slot)
+        self._unsure.discard(slot)
         env = self.environment("indication", service, bindings)
         env |= self.environment("response", service, bindings)
         rows = self._rows.get(("indication", service), ())
@@ -223,8 +225,11 @@ class Belief:
         ready = self.unseen.before(self.states, "answer", self._others(slot), goal)
         earlier = self.states
         after, refusals = self._answered(goal, ready, slot, answer)
+        if slot in self._unsure:
+            self._unsure.discard(slot)
+            after += [state for state in earlier if decided(state, slot) is None]
         if local and answer == MINUS:
-            after += forced(goal, _undecided(ready, slot), self.constraints)
+            after += forced(goal, not_accepted(ready, slot), self.constraints)
         if after:
             made = {assign.variable: assign.clauses for row in rows for assign in row.assigns}
             return replace(self._become(after, earlier), clauses=made)
@@ -320,21 +325,30 @@ class Belief:
         return after, refusals
 
     def lose_sight(self) -> None:
-        """Messages may be missing: nothing that can change is known any more."""
+        """Messages may be missing: nothing that can change is known any more.
+
+        What is asked for may have been performed already, whatever has happened since.
+        """
+        self._unsure |= self._outstanding.keys()
         self.states = sight_lost(self.states, self.constraints)
 
     def drop(self, slot: str) -> None:
         """A request will not be answered any more; whether it was performed is not known."""
         outstanding = self._outstanding.pop(slot, None)
         self._watches.pop(slot, None)
+        self._unsure.discard(slot)
         if outstanding is not None:
-            extra = [
-                after
-                for state in self.states
-                for row in outstanding.rows
-                for after in take(self.made.ready(row, outstanding.env), state, self.constraints)[0]
-            ]
-            self._become([undecided(s, slot) for s in [*self.states, *extra]])
+            performed = [after for answer in (PLUS, MINUS) for after in self._performed(outstanding, answer)]
+            self._become([undecided(state, slot) for state in [*self.states, *performed]])
+
+    def _performed(self, request: Outstanding, answer: str) -> list[Partial]:
+        """The states after a request has been performed and not answered."""
+        rows = [row for row in request.rows if row.answer == answer]
+        goal = Goal(rows, request.env, self.made)
+        ready = self.unseen.before(self.states, "answer", self._others(request.slot), goal)
+        return [
+            after for state in ready for ways in goal.ways for after in take(ways, state, self.constraints)[0]
+        ]
 
     # The set of states.
 
@@ -383,8 +397,3 @@ def _given(given: Any, sort: Sort | None = None) -> Any:
     if isinstance(given, int | Enumeration):
         return exactly(given)
     return given if isinstance(given, str) else frozenset(given)
-
-
-def _undecided(states: Sequence[Partial], slot: str) -> list[Partial]:
-    """The states in which the responder has not accepted the request already, without marks of a decision."""
-    return [undecided(state, slot) for state in states if decided(state, slot) != PLUS]

@@ -24,7 +24,7 @@ from mmsverify.concrete.belief.ready import Ready, Rows
 from mmsverify.concrete.belief.several import changed, distinct
 from mmsverify.concrete.belief.values import ABSENT, NO, YES, Env, within
 from mmsverify.model.model import ModelData
-from mmsverify.model.rows import Row
+from mmsverify.model.rows import PLUS, Row
 from mmsverify.model.sorts import BOOL, ElementSort
 from mmsverify.model.terms import SetOf
 
@@ -70,6 +70,11 @@ def decided(state: Partial, slot: str) -> str | None:
 def undecided(state: Partial, slot: str) -> Partial:
     """The state without the mark of that decision."""
     return state.without([(DECIDED, (slot,))]) if (DECIDED, (slot,)) in state.beside else state
+
+
+def not_accepted(states: Iterable[Partial], slot: str) -> list[Partial]:
+    """The states in which the responder has not accepted the request already, without marks of a decision."""
+    return [undecided(state, slot) for state in states if decided(state, slot) != PLUS]
 
 
 @dataclass

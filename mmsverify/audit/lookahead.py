@@ -1,0 +1,126 @@
+"""What a first look over a recording tells, before any of it is judged: who is no robot, and what is missing.
+
+Where a recording begins in mid-operation or has a gap, requests may wait that it does not show. Such a
+request may be performed at any instant until its answer; until the last of these answers, nothing is known
+of the robot's state (RP-31).
+"""
+
+from __future__ import annotations
+
+import json
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from mmsverify.errors import DecodeError
+from mmsverify.formats import mms
+from mmsverify.formats.mms import Pdu
+from mmsverify.formats.trace import TraceMessage
+
+INITIATES = (b"\xa8", b"\xa9")
+ANSWERS = frozenset({"confirmed-ResponsePDU", "confirmed-ErrorPDU", "rejectPDU"})
+OTHER_SIDE = {"client": "server", "server": "client"}
+
+Key = tuple[str, str]
+"""A device and an association of it."""
+Span = tuple[int, int]
+"""Two indices of messages, both within."""
+
+
+@dataclass
+class _Requests:
+    """The requests of one association; ``since``: from that index on, messages before it are missing."""
+
+    since: int | None = 0
+    shown: set[tuple[str, int]] = field(default_factory=set)
+
+    def begin(self, since: int | None) -> None:
+        """A gap, or an association that the recording shows as a whole (``None``)."""
+        self.since = since
+        self.shown.clear()
+
+    def answers_unseen(self, sender: str, pdu: Pdu) -> bool:
+        """Whether it is the answer to a request that is missing: its invokeID has not been used since."""
+        if pdu.invoke_id is None:
+            return False
+        if pdu.kind == "confirmed-RequestPDU":
+            self.shown.add((sender, pdu.invoke_id))
+            return False
+        key = OTHER_SIDE[sender], pdu.invoke_id
+        return pdu.kind in ANSWERS and key not in self.shown
+
+
+class Lookahead:
+    """``base_only`` are the associations of devices that are no robots.
+
+    Their Initiate shows no additional services, and no robot detail follows.
+    """
+
+    def __init__(self, messages: Iterable[TraceMessage]) -> None:
+        self._begun: dict[Key, bool] = {}
+        self._requests: dict[Key, _Requests] = defaultdict(_Requests)
+        self._blind: dict[Key, list[Span]] = defaultdict(list)
+        for message in messages:
+            if message.message_encoding == "mms-ber":
+                self._heard(message)
+            elif (happened := link(message)) is not None:
+                key = message.metadata.get("name", ""), happened[0]
+                self._requests[key].begin(message.index if happened[1] == "gap" else None)
+        self.base_only = frozenset(key for key, robot in self._begun.items() if not robot)
+
+    def blind(self, vmd: str) -> list[Span]:
+        """Where requests to that device may be waiting that the recording does not show."""
+        spans = [(k, s) for k, found in self._blind.items() for s in found]
+        return sorted(span for key, span in spans if key[0] == vmd and key not in self.base_only)
+
+    def _heard(self, message: TraceMessage) -> None:
+        key = (message.metadata.get("vmd", ""), message.metadata.get("association", ""))
+        requests = self._requests[key]
+        if message.data[:1] in INITIATES:
+            self._begun[key] = self._begun.get(key, False) or _offers_additional(message.data)
+            requests.begin(None)
+            return
+        if key in self._begun and not self._begun[key] and _may_have_detail(message.data):
+            self._begun[key] = _has_detail(message.data)
+        if requests.since is not None:
+            for pdu in _decoded(message.data):
+                if requests.answers_unseen(message.metadata.get("sender", "client"), pdu):
+                    self._blind[key].append((requests.since, message.index))
+
+
+def link(message: TraceMessage) -> tuple[str, str] | None:
+    """The connection of an MMS link and what happens to it; ``None`` where the message tells of none."""
+    if message.schema_name != "link.Event":
+        return None
+    try:
+        event = json.loads(message.data)
+        connection, what, role = event["connection"], event["event"], event["role"]
+    except (ValueError, KeyError, TypeError):
+        return None
+    return (str(connection), str(what)) if role == "mms" else None
+
+
+def _decoded(octets: bytes) -> Iterator[Pdu]:
+    """The PDU, if it is one: that it is none is told when the message is judged."""
+    try:
+        yield mms.decode(octets)
+    except DecodeError:
+        return
+
+
+def _offers_additional(octets: bytes) -> bool:
+    for pdu in _decoded(octets):
+        body: Mapping[str, Any] = pdu.body
+        details = (body.get("initRequestDetail"), body.get("initResponseDetail"))
+        return any(d and any(key.startswith("additionalSupported") for key in d) for d in details)
+    return True
+
+
+def _may_have_detail(octets: bytes) -> bool:
+    return b"\xbf\x4f" in octets or b"\xbf\x4e" in octets
+
+
+def _has_detail(octets: bytes) -> bool:
+    own = ("select", "vMDStop", "vMDReset", "alterPI")
+    return any(pdu.detail is not None or pdu.service in own for pdu in _decoded(octets))
