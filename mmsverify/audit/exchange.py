@@ -40,7 +40,8 @@ class Association:
     """The state of one association as its messages show it.
 
     ``begun``: the recording shows it from its Initiate on, without a gap. ``proposed``: the Initiate that
-    waits for its answer. ``alarm``: what the last message told that stops the robot, if it did.
+    waits for its answer. ``_hidden``: requests whose invokeID was used again before their answer, which may
+    still come. ``alarm``: what the last message told that stops the robot, if it did.
     """
 
     def __init__(self, name: str) -> None:
@@ -48,6 +49,7 @@ class Association:
         self.begun = False
         self.negotiated: Negotiated | None = None
         self.asked: dict[tuple[str, int], Asked] = {}
+        self._hidden: dict[tuple[str, int], Asked] = {}
         self.proposed: Mapping[str, Any] | None = None
         self.alarm = ""
         self._missing: Breach | None = None
@@ -68,6 +70,7 @@ class Association:
         """Messages may be missing: any answer may be to a request that the recording lacks."""
         lost = list(self.asked.values())
         self.asked.clear()
+        self._hidden.clear()
         self._cancels.clear()
         self.begun, self.alarm = False, ""
         self._missing = self._concluding = None
@@ -121,8 +124,8 @@ class Association:
         return lost
 
     def reopen(self) -> None:
-        """A new connection is there."""
-        self._missing = None
+        """A new connection is there: nothing is said on it before Initiate."""
+        self._missing = Breach("protocol.no-association", {"why": "the connection begins without Initiate"})
 
     # Requests and answers.
 
@@ -140,6 +143,7 @@ class Association:
         asked = Asked(index, side, pdu, slot, earlier is not None, excess, message)
         self.asked[key] = asked
         if earlier is not None:
+            self._hidden[key] = earlier
             words: dict[str, Any] = {"invoke": pdu.invoke_id, "first": earlier.index}
             return asked, [Breach("protocol.invoke-id-reused", words, (earlier.index,))]
         if limit is not None and len(waiting) == limit:
@@ -158,7 +162,7 @@ class Association:
         if pdu.invoke_id is None:
             return None, list(self._unknown_pdu(side, pdu))
         key = (OTHER_SIDE[side], pdu.invoke_id)
-        asked = self.asked.pop(key, None)
+        asked = self._question(key, pdu)
         if asked is None:
             unasked = self.begun and pdu.kind in ANSWERS
             words = {"side": side, "invoke": pdu.invoke_id}
@@ -167,6 +171,13 @@ class Association:
             words = {"asked": title(str(asked.pdu.service)), "answered": title(str(pdu.service))}
             return None, [Breach("protocol.other-service", words, (asked.index,))]
         return asked, [*self._cancels.answered(key, pdu), *self._agreed(side, asked, pdu)]
+
+    def _question(self, key: tuple[str, int], pdu: Pdu) -> Asked | None:
+        """The request that is answered; of two with one invokeID that of the answer's service, or the later."""
+        asked, hidden = self.asked.get(key), self._hidden.get(key)
+        if hidden is not None and (asked is None or pdu.service not in (None, asked.pdu.service)):
+            return self._hidden.pop(key)
+        return self.asked.pop(key, None)
 
     def _agreed(self, side: str, asked: Asked, pdu: Pdu) -> Iterator[Breach]:
         if self.negotiated is not None:

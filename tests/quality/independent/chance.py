@@ -13,7 +13,6 @@ from independent.objects import ARM, CALIBRATION, CONTROLLING, NORMAL, Refusal
 from independent.server import Outcome, negative, positive
 from independent.tape import Tape
 from independent.wishes import counted, members, unsettled, wish
-
 from mmsverify.formats.mms import Pdu
 
 
@@ -134,7 +133,9 @@ class Talk:
             return
         domain.left -= 1
         domain.state = "loading" if domain.left else "complete"
-        desk.say("client", positive(asked, {"loadData": ("non-coded", b"GO"), "moreFollows": domain.left > 0}))
+        desk.say(
+            "client", positive(asked, {"loadData": ("non-coded", b"GO"), "moreFollows": domain.left > 0})
+        )
 
     def link(self) -> None:
         """An association ends, in order or not."""

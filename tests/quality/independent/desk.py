@@ -11,7 +11,6 @@ from independent.controller import Controller
 from independent.objects import ARM
 from independent.server import ADDITIONAL, OF_CLIENT, SEMAPHORES, SERVICES, Outcome, perform, positive
 from independent.tape import Tape
-
 from mmsverify.formats.mms import Pdu, bit_string
 from mmsverify.samples import pdus
 
@@ -121,7 +120,9 @@ class Desk:
 
     # Faults.
 
-    def accepts(self, service: str, body: Any = None, detail: Any = None, *, why: str = "", gives: Any = None) -> None:
+    def accepts(
+        self, service: str, body: Any = None, detail: Any = None, *, why: str = "", gives: Any = None
+    ) -> None:
         """The robot answers positively what it must refuse, and does nothing."""
         asked = self.request(service, body, detail)
         outcome = self.perform(asked)
@@ -147,6 +148,13 @@ class Desk:
 
     def state_of(self, body: Any) -> str:
         return self.robot.programs[body["programInvocationName"]].state
+
+    def absent(self, *names: str) -> None:
+        """It is shown that no program invocation and no domain has these names."""
+        for name in names:
+            self.refused("getProgramInvocationAttributes", name)
+            self.refused("getDomainAttributes", name)
+        self.status()
 
     # Sentences.
 

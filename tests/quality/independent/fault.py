@@ -9,7 +9,6 @@ from typing import Any
 from independent.controller import Controller
 from independent.desk import Desk
 from independent.tape import Tape
-
 from mmsverify.formats.mms import Pdu, number
 
 Run = Callable[[Desk], None]
@@ -76,6 +75,7 @@ def fault(*clauses: str, **more: Any) -> Callable[[Run], Run]:
 
 
 # Changes of an answer.
+
 
 def detailed(**fields: Any) -> Callable[[Pdu], Pdu]:
     """The robot's part says something else."""

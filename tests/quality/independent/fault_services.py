@@ -21,7 +21,7 @@ from independent.desk import (
 )
 from independent.fault import add, fault
 from independent.objects import ARM, CALIBRATION, CONFLICT, DENIED, EXISTS, STATUS_CONFLICT, UNKNOWN
-
+from independent.server import positive
 from mmsverify.samples import pdus
 
 Ask = tuple[str, Any, Any]
@@ -57,7 +57,9 @@ def wrongly(come: Callable[[Desk], None], service: str, body: Any, detail: Any =
     return run
 
 
-def refusing(come: Callable[[Desk], None], cause: tuple[str, str], service: str, body: Any, detail: Any = None) -> Any:
+def refusing(
+    come: Callable[[Desk], None], cause: tuple[str, str], service: str, body: Any, detail: Any = None
+) -> Any:
     def run(d: Desk) -> None:
         come(d)
         d.refuses(service, body, detail, cause=cause)
@@ -86,11 +88,26 @@ for _service, _states in ADMITTED.items():
             add(f"refused_{_service}_{_state}", run, "*", level="any")
     _missing = "NONE" if _service == "deleteProgramInvocation" else named("NONE")
     add(
-        f"{_service}_unknown", wrongly(Desk.status, _service, _missing, why="unknown"), "B-*", "RP-14", STEPS[_service]
+        f"{_service}_unknown",
+        wrongly(lambda d: d.absent("NONE"), _service, _missing, why="unknown"),
+        "B-*",
+        "RP-14",
+        STEPS[_service],
     )
-add("kill_unknown", wrongly(Desk.status, "kill", named("NONE")), "B-*", "RP-14", "R-7.3.3.7.1-*")
+add(
+    "kill_unknown",
+    wrongly(lambda d: d.absent("NONE"), "kill", named("NONE")),
+    "B-*",
+    "RP-14",
+    "R-7.3.3.7.1-*",
+)
 add("kill_refused", refusing(normal("running"), CONFLICT, "kill", named("COUNT")), "*", level="any")
-add("attributes_refused", refusing(normal("idle"), UNKNOWN, "getProgramInvocationAttributes", "COUNT"), "*", level="any")
+add(
+    "attributes_refused",
+    refusing(normal("idle"), UNKNOWN, "getProgramInvocationAttributes", "COUNT"),
+    "*",
+    level="any",
+)
 
 # Without R_CTRL.
 GUARDED: dict[str, tuple[Ask, str]] = {
@@ -174,7 +191,17 @@ for _name, _ask in CHANGES.items():
         body = views.status(d.robot)[0] if ask[0] == "vMDReset" else gives
         d.accepts(*ask, gives=body)
 
-    add(f"local_{_name}", _while_local, "R-3.2.1-1", "R-T1-1", "R-6.2.1-6", "R-5.3.1.4*", "B-*", "RP-10", "RP-11")
+    add(
+        f"local_{_name}",
+        _while_local,
+        "R-3.2.1-1",
+        "R-T1-1",
+        "R-6.2.1-6",
+        "R-5.3.1.4*",
+        "B-*",
+        "RP-10",
+        "RP-11",
+    )
 
     def _while_stopped(d: Desk, ask: Ask = _ask, gives: Any = _gives) -> None:
         stopped(d)
@@ -201,8 +228,6 @@ def limited_attributes(d: Desk) -> None:
     limited(d)
     asked = d.request("getProgramInvocationAttributes", "R_CAL")
     body, detail = views.program(d.robot, "R_CAL")
-    from independent.server import positive
-
     d.say("server", positive(asked, body, detail))
     d.tape.wrong()
 
@@ -213,6 +238,7 @@ def two(d: Desk) -> None:
     d.create("WELD")
     d.create("TOOL", 2)
     d.ready("PAINT")
+    d.absent("NEW", "NONE")
 
 
 def running(d: Desk) -> None:
@@ -249,6 +275,14 @@ def coasting(d: Desk) -> None:
     d.look()
 
 
+def fresh(d: Desk) -> None:
+    """A domain without a program."""
+    d.absent("NEW")
+    d.download("NEW")
+    d.refused("getProgramInvocationAttributes", "NEW")
+    d.status()
+
+
 NOT_SELECTED = ("R-7.3.3.3.3-d0", "R-5.3.1.3.3.7-2", "R-6.3.5.6-1", "R-6.1.1-2")
 ACCEPTED: tuple[tuple[str, Callable[[Desk], None], Ask, tuple[str, ...]], ...] = (
     ("start_not_selected", two, ("start", named("WELD"), starting()), NOT_SELECTED),
@@ -265,7 +299,6 @@ ACCEPTED: tuple[tuple[str, Callable[[Desk], None], Ask, tuple[str, ...]], ...] =
     ("resume_count_zero", exhausted, ("resume", named("PAINT"), resuming()), ("R-7.3.3.5.3-e1",)),
     ("resume_zero_cycles", exhausted, ("resume", named("PAINT"), resuming("cycleCount", 0)), ("R-7.3.3.5.1.5-*", "RP-14")),
     ("reset_moving", coasting, ("reset", named("PAINT"), None), ("RP-07", "R-6.3.5.8-1", "R-5.3.1.3.3.8-1")),
-    ("resume_executing", running, ("resume", named("PAINT"), resuming()), ("B-*", "R-7.3.3.5.3-*", "RP-06")),
     ("delete_moving", coasting, ("deleteProgramInvocation", "PAINT", None), ("RP-04", "R-6.1.3.2.6*", "R-6.3.4*")),
     ("delete_arm", two, ("deleteProgramInvocation", ARM, None), ("R-8.3.1-3", "B-*", "R-7.3.3.8.1-a")),
     ("delete_calibration", two, ("deleteProgramInvocation", CALIBRATION, None), ("R-8.3.2-2", "B-*", "R-7.3.3.8.1-a")),
@@ -298,15 +331,16 @@ IN_REQUEST = {
 }  # fmt: skip
 SEEN_NEXT = {
     "calibrate_executing", "reset_moving", "delete_moving", "select_running_itself", "select_while_running",
-    "deselect_running", "vmd_reset_executing", "resume_executing",
+    "deselect_running", "vmd_reset_executing",
 }  # fmt: skip
 FOR_A_READING = {
     "start_calibrating", "calibrate_executing", "start_arm_direct", "reset_moving", "delete_moving", "select_twice",
     "select_dead_arm", "alter_zero", "select_unknown", "select_unknown_member", "alter_unknown",
 }  # fmt: skip
 for _name, _come, _ask, _clauses in ACCEPTED:
+    seen_next = ("*",) * (_name in SEEN_NEXT)
     add(
-        _name, wrongly(_come, *_ask), *_clauses, back=int(_name in IN_REQUEST),
+        _name, wrongly(_come, *_ask), *_clauses, *seen_next, back=int(_name in IN_REQUEST),
         ahead=2 * (_name in SEEN_NEXT),
         level="any" if _name in FOR_A_READING else "error",
     )  # fmt: skip
@@ -329,7 +363,7 @@ REFUSED: tuple[tuple[str, Callable[[Desk], None], Ask, tuple[str, str]], ...] = 
     ("reset_selected", Desk.standing, ("reset", named("PAINT"), None), CONFLICT),
     ("alter", two, ("alterPI", altering("PAINT"), None), CONFLICT),
     ("vmd_stop", running, ("vMDStop", None, None), CONFLICT),
-    ("create", lambda d: (d.download("NEW"), d.status())[1], ("createProgramInvocation", creation("NEW"), 1), EXISTS),
+    ("create", fresh, ("createProgramInvocation", creation("NEW"), 1), EXISTS),
     ("for_logical_status", two, ("select", {}, None), STATUS_CONFLICT),
     ("for_access", two, ("deleteProgramInvocation", "WELD", None), DENIED),
 )  # fmt: skip

@@ -9,7 +9,6 @@ from typing import Any
 from independent import domains, programs, views, vmd
 from independent.controller import Controller
 from independent.objects import UNKNOWN, Answer, Refusal
-
 from mmsverify.formats.mms import Pdu
 from mmsverify.samples import pdus
 

@@ -9,7 +9,6 @@ from independent.controller import Controller
 from independent.domains import known
 from independent.domains import state as domain_state
 from independent.objects import ARM, CALIBRATION, CONTROLLED, CONTROLLING, JOINTS, Answer
-
 from mmsverify.formats.mms import number
 
 Data = tuple[str, Any]

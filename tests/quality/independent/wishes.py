@@ -12,7 +12,6 @@ from typing import Any
 from independent import desk
 from independent.controller import EXECUTING, PAUSED, RUNNERS, Controller
 from independent.objects import ARM, CALIBRATION, CONTROLLED, CONTROLLING
-
 from mmsverify.formats.mms import Pdu
 from mmsverify.samples import pdus
 
@@ -156,7 +155,7 @@ def unsettled(robot: Controller, asked: Pdu) -> bool:
     name = asked.body.get("programInvocationName") if isinstance(asked.body, dict) else None
     chosen = robot.chosen()
     if service in RUNNERS and name == CALIBRATION and chosen is not None:
-        return chosen.state == "stopped" or robot.state() == EXECUTING and chosen.state != "running"
+        return chosen.state == "stopped" or (robot.state() == EXECUTING and chosen.state != "running")
     if service in ("resume", "reset") and chosen is not None and name == chosen.name:
         team = [member.state for member in robot.team(chosen)]
         return chosen.state == "running" and "stopped" not in team and "idle" in team

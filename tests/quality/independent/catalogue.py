@@ -1,0 +1,25 @@
+"""Every kind of fault, and those that the audit does not judge yet as their author says, each with what is amiss."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from independent import fault_services, fault_shown, fault_wire
+from independent.fault import CATALOGUE, Fault
+
+__all__ = ["CATALOGUE", "OPEN", "Fault", "fault_services", "fault_shown", "fault_wire"]
+
+OPEN: Mapping[str, str] = {
+    "local_write": "Write is not judged",
+    "intervention_write": "Write is not judged",
+    "limited_attributes": "inquiries are not judged by the logical status",
+    "status_loaded_but_empty": "a program that was never shown may have come and gone",
+    "refused_create": "the refusal of Create may be due to what was never shown",
+    "without_control_stop_free": "told again: Stop was not performed either",
+    "without_control_stop_taken": "told again: Stop was not performed either",
+    "refused_stop_arm": "told again: the state in the refusal contradicts what explains the refusal",
+    "start_calibrating": "told at what is seen next, as an error, and again: nothing was performed",
+    "calibrate_executing": "told at what is seen next, as an error, and again: nothing was performed",
+    "vmd_reset_executing": "told again: VMD Reset deleted nothing",
+}
+"""What a fault of the catalogue comes to instead of one finding at its place."""
