@@ -173,7 +173,7 @@ class Association:
         return asked, [*self._cancels.answered(key, pdu), *self._agreed(side, asked, pdu)]
 
     def _question(self, key: tuple[str, int], pdu: Pdu) -> Asked | None:
-        """The request that is answered; of two with one invokeID that of the answer's service, or the later."""
+        """The request answered here; of two with one invokeID that of the answer's service, or the later."""
         asked, hidden = self.asked.get(key), self._hidden.get(key)
         if hidden is not None and (asked is None or pdu.service not in (None, asked.pdu.service)):
             return self._hidden.pop(key)

@@ -1,4 +1,4 @@
-"""A robot written from the text alone is not blamed; each fault of it is, once, at its place, with a clause."""
+"""A robot written from the text alone is not blamed; its faults are, each once, with a clause."""
 
 from __future__ import annotations
 

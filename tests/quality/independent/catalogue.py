@@ -1,13 +1,13 @@
-"""Every kind of fault, and those that the audit does not judge yet as their author says, each with what is amiss."""
+"""Every kind of fault; and those that the audit does not judge as their author says, and why."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 
-from independent import fault_services, fault_shown, fault_wire
+from independent import fault_robot, fault_services, fault_shown, fault_wire
 from independent.fault import CATALOGUE, Fault
 
-__all__ = ["CATALOGUE", "OPEN", "Fault", "fault_services", "fault_shown", "fault_wire"]
+__all__ = ["CATALOGUE", "OPEN", "Fault", "fault_robot", "fault_services", "fault_shown", "fault_wire"]
 
 OPEN: Mapping[str, str] = {
     "local_write": "Write is not judged",

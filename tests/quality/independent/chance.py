@@ -1,4 +1,4 @@
-"""Conversations at random: several clients, requests outstanding, answers out of order, a robot that lives on."""
+"""Conversations at random: several clients, requests outstanding, answers out of order, a robot at work."""
 
 from __future__ import annotations
 

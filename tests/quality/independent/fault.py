@@ -1,4 +1,4 @@
-"""One kind of fault: a conversation in which exactly one message is wrong, and what may be cited against it."""
+"""One kind of fault: a conversation in which exactly one message is wrong, and what may be cited."""
 
 from __future__ import annotations
 

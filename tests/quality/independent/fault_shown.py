@@ -17,8 +17,8 @@ from independent.fault import (
     robot_state,
     value,
 )
-from independent.fault_services import coasting, dead_arm, exhausted, normal, running, two
 from independent.objects import ARM, CALIBRATION
+from independent.situations import coasting, dead_arm, exhausted, normal, running, two
 from independent.views import floating
 from mmsverify.formats.mms import Pdu
 from mmsverify.samples import pdus

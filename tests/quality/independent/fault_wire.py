@@ -9,9 +9,9 @@ from typing import Any
 from independent import views
 from independent.desk import Desk, initiation, named
 from independent.fault import add, fault
-from independent.fault_services import running, two
 from independent.objects import ARM
 from independent.server import ADDITIONAL, OF_CLIENT, SERVICES, positive, rejected
+from independent.situations import running, two
 from mmsverify.formats.mms import Pdu, encode
 from mmsverify.formats.trace import Sender
 from mmsverify.samples import pdus
@@ -216,17 +216,16 @@ BROKEN: tuple[tuple[str, Octets], ...] = (
     ("no_invoke", lambda octets: bytes([octets[0], octets[1] - 3]) + octets[5:]),
     ("noise", lambda _: bytes(range(17, 40))),
 )
-for _name, _change in BROKEN:
+for _name, _octets in BROKEN:
     for _side in ("client", "server"):
 
-        def _garbled(d: Desk, side: Sender = _side, change: Octets = _change) -> None:  # type: ignore[assignment]
+        def _garbled(d: Desk, side: Sender = _side, change: Octets = _octets) -> None:
             two(d)
             if side == "client":
                 d.invoke += 1
                 pdu = Pdu("confirmed-RequestPDU", d.invoke, "stop", named("PAINT"))
                 octets = change(encode(pdu))
             else:
-                body, detail = views.status(d.robot)
                 pdu = d.perform(d.request("status", False)).pdu
                 octets = change(encode(pdu))
             d.say(side, pdu, octets)

@@ -1,4 +1,4 @@
-"""What the robot is made of: program invocations, domains, an arm with joints, and why a request is refused."""
+"""What the robot is made of: program invocations, domains, an arm with joints; why a request is refused."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Program:
 
 @dataclass
 class Domain:
-    """A domain; ``left`` are the segments that its download still wants, ``link`` the association that loads."""
+    """A domain; ``left`` are the segments that its download wants, ``link`` the association that loads."""
 
     name: str
     sharable: bool = False

@@ -101,7 +101,7 @@ def resume(robot: Controller, name: str, detail: tuple[str, Any] | None) -> None
     kind, value = given or ("continueMode", None)
     if kind == "continueMode" and program.mode[1] == 0:
         raise Refusal("count-zero", CONFLICT, ("resume", program.state))
-    mode = program.mode if kind == "continueMode" else count(robot, value)
+    mode = program.mode if value is None else count(robot, value)
     _rouse(robot, program, "resume")
     program.mode, program.state = mode, "running"
 

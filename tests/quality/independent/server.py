@@ -13,8 +13,9 @@ from mmsverify.formats.mms import Pdu
 from mmsverify.samples import pdus
 
 SERVICES = (
-    "status", "getNameList", "identify", "read", "write", "initiateDownloadSequence", "initiateUploadSequence",
-    "uploadSegment", "terminateUploadSequence", "loadDomainContent", "storeDomainContent", "deleteDomain",
+    "status", "getNameList", "identify", "read", "write", "initiateDownloadSequence",
+    "initiateUploadSequence", "uploadSegment", "terminateUploadSequence",
+    "loadDomainContent", "storeDomainContent", "deleteDomain",
     "getDomainAttributes", "createProgramInvocation", "deleteProgramInvocation", "start", "stop", "resume",
     "reset", "kill", "getProgramInvocationAttributes", "defineEventEnrollment", "deleteEventEnrollment",
     "unsolicitedStatus", "informationReport", "eventNotification", "conclude", "cancel",
@@ -22,7 +23,8 @@ SERVICES = (
 SEMAPHORES = ("takeControl", "relinquishControl", "reportSemaphoreStatus")
 ADDITIONAL = ("vMDStop", "vMDReset", "select", "alterProgramInvocationAttributes")
 OF_CLIENT = (
-    "downloadSegment", "terminateDownloadSequence", "unsolicitedStatus", "informationReport", "eventNotification",
+    "downloadSegment", "terminateDownloadSequence", "unsolicitedStatus", "informationReport",
+    "eventNotification",
 )  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""A recording as a list, until it is written: it can be mixed with another, cut off, or begun in the middle."""
+"""A recording as a list until it is written: it can be mixed with another, cut off, begun in the middle."""
 
 from __future__ import annotations
 

@@ -88,7 +88,8 @@ def variable(robot: Controller, name: tuple[str, Any]) -> Data | None:
 
 def _of_vmd(robot: Controller, item: str) -> Data | None:
     flags = {
-        "R_VPWR": robot.power, "R_VCAL": robot.calibrated(), "R_VLOCAL": robot.local, "R_VSAFEV": robot.violated,
+        "R_VPWR": robot.power, "R_VCAL": robot.calibrated(), "R_VLOCAL": robot.local,
+        "R_VSAFEV": robot.violated,
     }  # fmt: skip
     if item in flags:
         return "boolean", flags[item]

@@ -6,8 +6,26 @@ from collections.abc import Mapping
 from typing import Any
 
 from independent.controller import EXECUTING, Controller
-from independent.objects import CONFLICT, CONSTRAINT, CONTROLLED, CONTROLLING, DENIED, Refusal
+from independent.objects import CONFLICT, CONSTRAINT, CONTROLLED, CONTROLLING, DENIED, Program, Refusal
 from independent.programs import count
+
+
+def _selectable(program: Program) -> None:
+    """Steps b and c."""
+    if program.control != CONTROLLING:
+        raise Refusal("not-controlling", CONSTRAINT)
+    if program.state != "idle":
+        raise Refusal("not-idle", CONFLICT)
+
+
+def _controllable(robot: Controller, member: Program) -> None:
+    """Step d."""
+    if member.control != CONTROLLED:
+        raise Refusal("not-controlled", CONSTRAINT)
+    if member.controller not in (None, robot.selected):
+        raise Refusal("elsewhere", CONFLICT)
+    if member.state == "unrunnable":
+        raise Refusal("member-unrunnable", CONFLICT)
 
 
 def select(robot: Controller, body: Mapping[str, Any]) -> None:
@@ -16,20 +34,11 @@ def select(robot: Controller, body: Mapping[str, Any]) -> None:
     if name is None and listed:
         raise Refusal("list-alone", CONSTRAINT)
     if name is not None:
-        program = robot.program(name)
-        if program.control != CONTROLLING:
-            raise Refusal("not-controlling", CONSTRAINT)
-        if program.state != "idle":
-            raise Refusal("not-idle", CONFLICT)
+        _selectable(robot.program(name))
     if len(set(listed)) != len(listed):
         raise Refusal("twice", CONSTRAINT)
     for member in map(robot.program, listed):
-        if member.control != CONTROLLED:
-            raise Refusal("not-controlled", CONSTRAINT)
-        if member.controller not in (None, robot.selected):
-            raise Refusal("elsewhere", CONFLICT)
-        if member.state == "unrunnable":
-            raise Refusal("member-unrunnable", CONFLICT)
+        _controllable(robot, member)
     chosen = robot.chosen()
     if chosen is not None and chosen.state != "idle":
         raise Refusal("selected-busy", CONFLICT)

@@ -18,7 +18,8 @@ from mmsverify.samples import pdus
 NAMES = ("PAINT", "WELD", "TOOL", "COUNT")
 KINDS = {"PAINT": 1, "WELD": 1, "TOOL": 2, "COUNT": 0}
 ITEMS = (
-    "R_VPWR", "R_VCAL", "R_VLOCAL", "R_VSAFEV", "R_ARM.R_DPWR", "R_ARM.R_DCAL", "R_ARM.R_DLOCAL", "R_ARM.R_NJ",
+    "R_VPWR", "R_VCAL", "R_VLOCAL", "R_VSAFEV", "R_ARM.R_DPWR", "R_ARM.R_DCAL", "R_ARM.R_DLOCAL",
+    "R_ARM.R_NJ",
     "R_ARM.R_JT", "R_ARM.R_JCAL", "R_ARM.R_JBK", "R_ARM.R_JBD", "R_ARM.R_AJV", "R_ARM.R_SF", "R_ARM.R_TUB",
     "R_ARM.R_ATUP", "Part_Count", "No_Such",
 )  # fmt: skip
