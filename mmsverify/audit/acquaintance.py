@@ -1,8 +1,9 @@
 """Which program invocations a recording has made known (reading RP-21).
 
-ROBOT-IDLE means that no task program is available (5.3.1.3.2.1). What acts from then on without having been
-predefined, created or shown cannot be there. Nothing is said before ROBOT-IDLE is seen, nor after local
-control or a gap.
+ROBOT-IDLE means that no task program is available (5.3.1.3.2.1), as after power-on. Where a recording shows
+that from its first connection on, what acts without having been predefined, created or shown is not there.
+Elsewhere it may be one that is no task program and older than the recording: that is worth a note. Nothing
+is said before ROBOT-IDLE is seen, nor after local control or a gap.
 """
 
 from __future__ import annotations
@@ -23,6 +24,12 @@ class Acquaintance:
         self._known = set(predefined)
         self._expected: list[str] = []
         self._closed = False
+        self._whole: bool | None = None
+
+    def begin(self, *, opening: bool) -> None:
+        """Something is recorded; if it opens a connection and comes first, the recording lacks nothing."""
+        if self._whole is None:
+            self._whole = opening
 
     def expect(self, call: Call, *, settled: bool = False) -> None:
         """What is asked for may be created before the answer says so; once that is there, it tells."""
@@ -45,9 +52,11 @@ class Acquaintance:
 
     def lose(self) -> None:
         """Something may have been created unseen."""
-        self._closed = False
+        self._closed = self._whole = False
 
-    def stranger(self, call: Call) -> bool:
-        """Whether the service acts on a program invocation that cannot be there."""
+    def stranger(self, call: Call) -> str:
+        """The rule that is broken where the service acts on a program invocation that nothing has shown."""
         known = {*self._known, *self._expected}
-        return self._closed and call.service in ACTING and call.bindings.get("pi") not in known
+        if not self._closed or call.service not in ACTING or call.bindings.get("pi") in known:
+            return ""
+        return "program.never-shown" if self._whole else "program.not-shown-yet"

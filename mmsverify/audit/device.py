@@ -64,6 +64,7 @@ class Device:
     def link(self, connection: str, event: str, message: TraceMessage) -> Iterator[Finding]:
         """A connection opens, closes, is reset, or has a gap: messages may be missing before this point."""
         association = self._association(connection)
+        self._acquaintance.begin(opening=event == "open")
         if event == "gap":
             lost = association.gap()
             if connection not in self.base_only:
@@ -124,6 +125,7 @@ class Device:
 
     def _judge(self, association: Association, side: str, pdu: Pdu, message: TraceMessage) -> Told:
         robot = self._is_robot(association)
+        self._acquaintance.begin(opening=pdu.kind == "initiate-RequestPDU")
         if not pdu.kind.startswith("initiate"):
             yield from association.admit(side, pdu)
         if robot:

@@ -66,9 +66,10 @@ class Performing:
         bindings = _bindings(association, asked, call)
         outcome = self._belief.respond(asked.slot, call.service, bindings, PLUS)
         yield from self._telling.outcome(message, call.service, PLUS, outcome, (asked.index,))
-        if outcome.blame is None and self._acquaintance.stranger(call):
+        rule = self._acquaintance.stranger(call)
+        if outcome.blame is None and rule:
             words = {"service": title(call.service), "pi": call.bindings["pi"]}
-            yield Breach("program.never-shown", words, (asked.index,))
+            yield Breach(rule, words, (asked.index,))
         self._acquaintance.meet(call)
 
     def _refused(

@@ -48,11 +48,20 @@ CONTENTS = (
     rule(
         "program.never-shown",
         "{service} answered result(+), but {pi} is not predefined, "
-        "and since the robot was ROBOT-IDLE nothing has created or shown it",
+        "and since its first connection, when the robot was ROBOT-IDLE, nothing has created or shown it",
         "R-5.3.1.3.2.1-1",
         "R-7.3.3.9-1",
         "RP-14",
         "RP-21",
+    ),
+    rule(
+        "program.not-shown-yet",
+        "{service} answered result(+), but {pi} is not predefined, and since the robot was ROBOT-IDLE "
+        "nothing has created or shown it: it is no task program and older than the recording, or not there",
+        "R-5.3.1.3.2.1-1",
+        "RP-14",
+        "RP-21",
+        severity="note",
     ),
     rule("variable.type", "{variable} is {found}, not {wanted}", "R-8.1-1", shown=True),
     rule("variable.value", "{variable} is {found}, not among {wanted}", "R-8.1-1", shown=True),

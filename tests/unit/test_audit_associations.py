@@ -222,7 +222,14 @@ def test_a_list_of_controlled_ones_comes_with_the_controlling_one(listen: Listen
 def test_what_nothing_has_shown_since_robot_idle_cannot_act(listen: Listen, cell: Cell) -> None:
     cell.status("robot-idle")
     cell.call("kill", {"programInvocationName": "GHOST"})
-    assert "program.never-shown" in [found.rule for found in listen(cell) if found.index == 6]
+    assert ("program.never-shown", "error") in [(f.rule, f.severity) for f in listen(cell) if f.index == 6]
+
+
+def test_what_is_no_task_program_may_be_older_than_a_recording_that_begins_late(listen: Listen) -> None:
+    cell = Cell(Recording("cell"))
+    cell.status("robot-idle")
+    cell.call("kill", {"programInvocationName": "GHOST"})
+    assert places(listen(cell)) == [(3, "program.not-shown-yet", "note")]
 
 
 @pytest.mark.exercises("R-8.7.1-1")
