@@ -15,8 +15,6 @@ if os.environ.get("CI"):
 
 
 UNSETTLED = {
-    "test_a_long_conversation_with_a_right_robot_is_not_blamed",
-    "test_the_conversations_take_nearly_every_row",
     "test_a_belief_that_has_not_seen_all_things_is_never_less",
     "test_the_audit_flags_every_counterexample_that_messages_can_show",
     "test_most_effects_of_accepting_rows_matter_to_some_claim",
