@@ -184,6 +184,7 @@ class Device:
         if asked.side == "client":
             self._transfers.requested(association.name, asked)
             yield from self._performing.requested(association.name, asked)
+            self._notifications.requested(association.name, asked)
         else:
             yield from self._transfers.asked_by_robot(association.name, asked, message)
 
@@ -205,10 +206,9 @@ class Device:
         undisturbed = self.belief.undisturbed(asked.slot)
         if undisturbed and pdu.kind == "confirmed-ResponsePDU" and asked.pdu.service == "vMDReset":
             yield from self._showing.status(pdu.body, pdu.detail, message)
-        if pdu.kind == "confirmed-ResponsePDU":
-            agreed_on = association.negotiated
-            listens = agreed_on is None or agreed_on.listed("client", "eventNotification") is not False
-            self._notifications.performed(association.name, asked.pdu, pdu, listens=listens)
+        agreed_on = association.negotiated
+        listens = agreed_on is None or agreed_on.listed("client", "eventNotification") is not False
+        self._notifications.answered(association.name, asked, pdu, listens=listens, disturbed=not undisturbed)
 
     def _replayed(self, association: Association, asked: Asked, pdu: Pdu, message: TraceMessage) -> Told:
         """What the answer does or shows in the model."""

@@ -13,6 +13,7 @@ from typing import Any
 
 from mmsverify.audit import words
 from mmsverify.audit.enrollments import Cause, Enrollment
+from mmsverify.audit.exchange import Asked
 from mmsverify.audit.robot import plain_name
 from mmsverify.audit.rules import Breach
 from mmsverify.audit.showing import Showing
@@ -22,6 +23,11 @@ from mmsverify.formats.trace import TraceMessage
 from mmsverify.results import Finding
 
 PATIENCE = 100
+ENROLLING = frozenset({
+    "defineEventEnrollment", "deleteEventEnrollment", "alterEventEnrollment", "alterEventConditionMonitoring",
+})  # fmt: skip
+"""Services that say what is notified from then on."""
+
 Told = Iterator[Finding | Breach]
 
 
@@ -34,11 +40,31 @@ class Notifications:
         self._enrolled: dict[str, Enrollment] = {}
         self._deleted: dict[str, str] = {}
         self._disabled: set[str] = set()
+        self._unsettled: dict[str, str] = {}
 
     # What is enrolled.
 
-    def performed(self, association: str, request: Pdu, answer: Pdu, *, listens: bool) -> None:
-        """A service has been answered positively; ``listens``: the client takes notifications."""
+    def requested(self, association: str, asked: Asked) -> None:
+        """A client asks for something: it may be performed long before the answer."""
+        if asked.pdu.service in ENROLLING:
+            self._belief.watch(asked.slot)
+            self._unsettled[asked.slot] = association
+
+    def answered(self, association: str, asked: Asked, pdu: Pdu, *, listens: bool, disturbed: bool) -> None:
+        """The robot answers; ``listens``: the client takes notifications.
+
+        ``disturbed``: other things have been told since the request, so the event may have occurred before
+        the answer and not be told of any more, or have occurred before the service was performed.
+        """
+        if self._unsettled.pop(asked.slot, None) is None:
+            return
+        if pdu.kind == "confirmed-ResponsePDU":
+            self._performed(association, asked.pdu, pdu, listens)
+        for enrollment in self._enrolled.values() if disturbed else ():
+            enrollment.doubt()
+            self._belief.undisturbed(enrollment.slot)
+
+    def _performed(self, association: str, request: Pdu, answer: Pdu, listens: bool) -> None:
         body = request.body
         match request.service:
             case "defineEventEnrollment":
@@ -79,10 +105,10 @@ class Notifications:
                 self._deleted[name] = association
 
     def lose(self) -> None:
-        """Messages may be missing: anything may have been notified, enrolled or deleted."""
+        """Messages may be missing: anything may have been notified, enrolled, altered or deleted."""
         self._deleted.clear()
-        for enrollment in self._enrolled.values():
-            enrollment.doubt()
+        self._enrolled.clear()
+        self._unsettled.clear()
 
     # What occurs.
 
@@ -109,9 +135,11 @@ class Notifications:
         """The association is over, and with it what was enrolled on it."""
         self._enrolled = {n: e for n, e in self._enrolled.items() if e.association != association}
         self._deleted = {n: a for n, a in self._deleted.items() if a != association}
+        self._unsettled = {s: a for s, a in self._unsettled.items() if a != association}
 
     def _missing(self, enrollment: Enrollment, message: TraceMessage) -> Iterator[Breach]:
-        if enrollment.due is None or not enrollment.must_be_told or enrollment.condition in self._disabled:
+        told = enrollment.must_be_told and enrollment.condition not in self._disabled
+        if enrollment.due is None or not told or self._unsettled:
             return
         said = {"condition": enrollment.condition, "enrollment": enrollment.name}
         clause = enrollment.causes[0].occurrence.clause
