@@ -12,9 +12,11 @@ from dataclasses import dataclass, field
 from random import Random
 from typing import Any
 
+from random_steps import guessed, tried
+
 from mmsverify.concrete import Scope
 from mmsverify.concrete.belief import Belief, Blame
-from mmsverify.concrete.evaluate import Valuation, step, within_bounds
+from mmsverify.concrete.evaluate import Valuation
 from mmsverify.model import ModelData
 from mmsverify.model.rows import PLUS, Row
 
@@ -56,26 +58,17 @@ class Conversation:
 
     def bindings(self, row: Row, given: Mapping[str, Any]) -> dict[str, Any]:
         """Parameters of a row: those that are given, any values for the others."""
-        return {
-            p.name: given[p.name]
-            if p.name in given
-            else self.random.choice(self.scope.parameter_values(row, p))
-            for p in row.parameters
-        }
+        return guessed(row, given, self.scope, self.random)
 
     def take(
         self, rows: Iterable[Row], given: Mapping[str, Any], tries: int = TRIES
     ) -> tuple[Row, dict[str, Any]] | None:
         """A step of one of the rows, if one is found; its row and parameters."""
-        listed = list(rows)
-        for _ in range(tries if listed else 0):
-            row = self.random.choice(listed)
-            bindings = self.bindings(row, given)
-            after = step(row, bindings, self.state, self.scope)
-            if after is not None and within_bounds(self.model, self.scope, after):
-                self.state = after
-                return row, bindings
-        return None
+        found = tried(self.model, self.scope, rows, given, self.state, self.random, tries)
+        if found is None:
+            return None
+        row, bindings, self.state = found
+        return row, bindings
 
     # A request in three instants.
 

@@ -35,7 +35,8 @@ class Act:
     """One thing that happens.
 
     ``kind`` is ``open``, ``close``, ``reset``, ``ask``, ``serve``, ``perform``, ``answer``, ``happen``,
-    ``tell``, ``look``, ``gap`` or ``late``; ``who`` an association or a request, ``what`` a service or a row.
+    ``tell``, ``notify``, ``look``, ``gap`` or ``late``; ``who`` an association or a request, ``what`` a
+    service or a row.
     """
 
     kind: str

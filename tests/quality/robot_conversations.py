@@ -30,9 +30,15 @@ ROBOTS: tuple[tuple[dict[str, Any], dict[str, int]], ...] = (
 
 
 def conversation(seed: int, count: int) -> Talk:
-    """A conversation of ``count`` messages."""
+    """A conversation of ``count`` messages.
+
+    Of every third, the recording begins in mid-operation; every other one has gaps.
+    """
     profile, sizes = ROBOTS[seed % len(ROBOTS)]
-    return Chance(beginning(robot("repaired"), profile, sizes), seed).hold(count)
+    chance = Chance(beginning(robot("repaired"), profile, sizes), seed, gaps=0.003 * (seed // 4 % 2))
+    if seed % 3 == 2:
+        chance.join_late(seed % 100)
+    return chance.hold(count)
 
 
 def blamed(talk: Talk, path: Path) -> list[Finding]:

@@ -7,9 +7,12 @@ from math import inf
 from random import Random
 from typing import Any
 
+from random_steps import guessed
 from robot_acts import LOOKS, Act
+from robot_events import DEFINE, DELETE, ENROLLING
 from robot_talk import ASSOCIATING, Talk, row_name
 
+from mmsverify.audit.words import ARM
 from mmsverify.checking.domain_messages import FROM_ROBOT
 from mmsverify.concrete import Scope, scope_for
 from mmsverify.concrete.formulas import Formulas
@@ -21,6 +24,7 @@ from mmsverify.model import ModelData, Row
 from mmsverify.model.rows import PLUS
 
 COUNTS = (0, 3)
+ENROLLMENTS = ("E1", "E2", "E3")
 TRIES, GUESSES, WISHES = 12, 6, 5
 HOPED = {
     "status": "STATE-CHANGES-ALLOWED",
@@ -55,11 +59,11 @@ def beginning(model: ModelData, profile: Mapping[str, Any], sizes: Mapping[str, 
 class Chance:
     """Throws the dice for one conversation."""
 
-    def __init__(self, talk: Talk, seed: int, *, calm: bool = False) -> None:
-        """``calm``: one request at a time, and no message is lost."""
+    def __init__(self, talk: Talk, seed: int, *, calm: bool = False, gaps: float = 0.003) -> None:
+        """``calm``: one request at a time; ``gaps``: how often messages begin to be lost."""
         self.talk, self.random = talk, Random(seed)
         self.model, self.scope = talk.model, talk.scope
-        self.calm = calm
+        self.calm, self.gaps = calm, gaps
         rows = talk.model.actions
         asked = (r for r in rows if r.on.phase == "response" and self._can_be_named(r))
         self.services = sorted({r.on.service for r in asked} - ASSOCIATING.keys() - FROM_ROBOT)
@@ -92,13 +96,13 @@ class Chance:
         """One thing happens, or none."""
         acts: list[tuple[int, Callable[[], Any]]] = [
             (10, self.exchange), (8, self.unseen), (2, self.tell), (3, self.panel), (1, self.leave),
-            (6, self.serve),
+            (6, self.serve), (4, self.notify),
         ]  # fmt: skip
         if not self.calm:
             acts += [(8, self.ask), (12, self.perform), (12, self.answer)]
         if not self.talk.open or self.random.random() < 0.05:
             self.join()
-        elif not self.calm and self.random.random() < (0.2 if self.talk.lost_from is not None else 0.003):
+        elif self.random.random() < (0.2 if self.talk.lost_from is not None else self.gaps):
             self.talk.do(Act("gap", what="begin" if self.talk.lost_from is None else "end"))
         else:
             self.random.choices([act for _, act in acts], [weight for weight, _ in acts])[0]()
@@ -139,8 +143,31 @@ class Chance:
         user = self.random.choice(self.talk.open)
         if sum(p.user == user for p in self.talk.pending.values()) >= 5:
             return None
-        service, given = self.view() if self.random.random() < 0.3 else self.wish(user, free[0])
+        service, given = self.asked_for(user, free[0])
         return free[0] if self.talk.do(Act("ask", free[0], service, {"user": user, **given})) else None
+
+    def asked_for(self, user: str, slot: str) -> tuple[str, dict[str, Any]]:
+        """What a client asks for."""
+        if self.random.random() < 0.3:
+            return self.view()
+        return self.enrollment() if self.random.random() < 0.2 else self.wish(user, slot)
+
+    def enrollment(self) -> tuple[str, dict[str, Any]]:
+        """A client wants to be told of something, or not any more."""
+        name = self.random.choice(ENROLLMENTS)
+        if name in self.talk.events.enrolled and self.random.random() < 0.5:
+            return DELETE, {"enrollment": name}
+        conditions = sorted(self.talk.events.occurrences)
+        if not self.talk.arms:
+            conditions.remove(ARM)
+        condition = self.random.choice(conditions)
+        return DEFINE, {"enrollment": name, "condition": condition, "both": self.random.random() < 0.7}
+
+    def notify(self) -> None:
+        """The robot tells of an event that has occurred."""
+        due = list(self.talk.events.due())
+        if due:
+            self.talk.do(Act("notify", what=self.random.choice(due)))
 
     def view(self) -> tuple[str, dict[str, Any]]:
         """Something of the state is asked for."""
@@ -184,12 +211,7 @@ class Chance:
 
     def guessed(self, row: Row, known: Mapping[str, Any]) -> dict[str, Binding]:
         """Parameters of a row: those that are known, any values for the others."""
-        return {
-            p.name: known[p.name]
-            if p.name in known
-            else self.random.choice(self.scope.parameter_values(row, p))
-            for p in row.parameters
-        }
+        return guessed(row, known, self.scope, self.random)
 
     def foreseen(self, service: str, given: Mapping[str, Any]) -> Row | None:
         """A row that would be taken if the service were asked for and performed now."""
@@ -210,7 +232,7 @@ class Chance:
     def performed(self, slot: str) -> None:
         """What the rows of the service's procedure say; now and then, a failure of the robot's own."""
         request = self.talk.pending[slot]
-        if request.service in LOOKS:
+        if request.service in LOOKS or request.service in ENROLLING:
             self.talk.do(Act("perform", slot))
             return
         rows = self.talk.rows("response", request.service)

@@ -11,15 +11,19 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import robot_events
+from random_steps import taken
 from robot_acts import LOOKS, Act, Pending
+from robot_events import ENROLLING, PATIENCE, Events
 from robot_recording import Link, Message, Said, write
 
 from mmsverify.audit import robot as adapter
+from mmsverify.audit import words
 from mmsverify.checking import domain_messages
 from mmsverify.checking import robot_messages as messages
 from mmsverify.checking.robot_trace import profile_of
 from mmsverify.concrete import Scope
-from mmsverify.concrete.evaluate import Moment, Valuation, step, updated, within_bounds
+from mmsverify.concrete.evaluate import Valuation
 from mmsverify.concrete.trace_path import readable, readable_state
 from mmsverify.formats.mms import Pdu, decode, encode
 from mmsverify.formats.trace import Sender
@@ -50,6 +54,7 @@ class Talk:
         self.open: list[str] = []
         self.done: list[Act] = []
         self.lost_from: int | None = None
+        self.events = Events(model, scope)
         self._ids: dict[str, int] = {}
         self._start = start
         bound = (key for key, held in start.items() if key[0] == "predefined_arm" and held)
@@ -71,18 +76,24 @@ class Talk:
         happened = bool(getattr(self, f"_{act.kind}")(act))
         if happened:
             self.done.append(act)
+            for name in list(self.events.due()):
+                if len(self.messages) - self.events.enrolled[name].since > PATIENCE:
+                    self._told(name)
         return happened
 
     def takes(self, row: Row, bindings: Mapping[str, Any]) -> Valuation | None:
         """The state after the row, if it can be taken now."""
-        after = step(row, bindings, self.state, self.scope)
-        return after if after is not None and within_bounds(self.model, self.scope, after) else None
+        return taken(self.model, self.scope, row, bindings, self.state)
 
     def _take(self, row: Row, bindings: Mapping[str, Any]) -> bool:
         after = self.takes(row, bindings)
         if after is None:
             return False
+        occurring = self.events.occurring(self.state, after)
+        for name in set(occurring).intersection(self.events.due()):
+            self._told(name)
         self.state = after
+        self.events.act(occurring, len(self.messages), self._acted)
         return True
 
     def _open(self, act: Act) -> bool:
@@ -98,7 +109,12 @@ class Talk:
 
     def _close(self, act: Act) -> bool:
         """Conclude; all requests have been answered."""
-        if any(p.user == act.who for p in self.pending.values()) or not self._released(act):
+        if any(p.user == act.who for p in self.pending.values()):
+            return False
+        due = list(self.events.due(act.who))
+        for name in due if act.who in self.open else ():
+            self._told(name)
+        if not self._released(act):
             return False
         self._say(act.who, "client", Pdu("conclude-RequestPDU"))
         self._say(act.who, "server", Pdu("conclude-ResponsePDU"))
@@ -118,6 +134,7 @@ class Talk:
         if act.who not in self.open or not self._take(row, {"user": act.who, **act.given}):
             return False
         self.open.remove(act.who)
+        self.events.released(act.who)
         return True
 
     def _ask(self, act: Act) -> bool:
@@ -128,7 +145,8 @@ class Talk:
         invoke_id = self._id(user)
         given = {name: readable(held) for name, held in act.given.items()}
         given["binds_arm"] = given.get("binds_arm", False) and bool(self.arms)
-        asked = decode(encode(messages.request(invoke_id, act.what, given)))
+        made = robot_events.request if act.what in ENROLLING else messages.request
+        asked = decode(encode(made(invoke_id, act.what, given)))
         self._say(user, "client", asked)
         call = adapter.performed(asked, self.arms)
         bindings = {"request": slot, "user": user, **(call.bindings if call else act.given)}
@@ -162,6 +180,9 @@ class Talk:
         if request.service in LOOKS:
             request.answer = self._looked(request)
             return True
+        if request.service in ENROLLING:
+            request.answer = self.events.perform(request.service, request.asked, request.invoke_id)
+            return True
         row = next((r for r in self.rows("response", request.service) if row_name(r) == act.what), None)
         if row is None or not self._take(row, {**act.given, **self.bindings(row, request.asked)}):
             return False
@@ -171,14 +192,6 @@ class Talk:
     def _decide(self, request: Pending, row: Row) -> None:
         said = {name: readable(held) for name, held in request.asked.items()}
         request.answer = messages.answer(request.invoke_id, request.service, said, row.answer, self.shown())
-
-    def break_rule(self, slot: str, row: Row, hidden: Mapping[str, Any]) -> None:
-        """The robot acts by a row without asking its guard, and answers so: it does not conform any more."""
-        request = self.pending[slot]
-        bindings = {**hidden, **self.bindings(row, request.asked)}
-        self.state = updated(row, Moment(self.scope, self.state, bindings))
-        self._decide(request, row)
-        self._answer(Act("answer", slot))
 
     def _answer(self, act: Act) -> bool:
         request = self.pending.get(act.who)
@@ -223,6 +236,23 @@ class Talk:
             return False
         self._say(act.who, "server", messages.unsolicited_status(self.shown()))
         return True
+
+    def _notify(self, act: Act) -> bool:
+        """The robot tells of an event."""
+        if act.what not in self.events.due():
+            return False
+        self._told(act.what)
+        return True
+
+    def _told(self, name: str) -> None:
+        user, told = self.events.told(name)
+        self._say(user, "server", told)
+
+    def _acted(self, action: str) -> Pdu:
+        """What an action shows now."""
+        if action == words.ARM:
+            return messages.attributes(0, words.ARM, self.shown())
+        return messages.answer(0, "status", {}, PLUS, self.shown())
 
     def _gap(self, act: Act) -> bool:
         """Messages are lost from here (``what`` is ``begin``) to there, on all connections."""
