@@ -78,12 +78,15 @@ class Performing:
         rejected = pdu.kind == "rejectPDU"
         why = robot.Failure(True, False, None) if rejected else robot.failure(pdu)
         bindings = {**_bindings(association, asked, call), "destructive": why.state == "UNRUNNABLE"}
-        outcome = self._belief.respond(asked.slot, call.service, bindings, MINUS, local=why.local)
+        left = None
+        if self._belief.undisturbed(asked.slot) and why.state is not None:
+            left = "stateAfterFailure", {"pi": bindings["pi"], "shown_state": why.state}
+        outcome = self._belief.respond(
+            asked.slot, call.service, bindings, MINUS, local=why.local, beside=left
+        )
         yield from self._telling.outcome(message, call.service, MINUS, outcome, (asked.index,))
-        undisturbed = self._belief.undisturbed(asked.slot)
-        if why.state is not None and outcome.blame is None and undisturbed:
-            left = {"pi": bindings["pi"], "shown_state": why.state}
-            shown = self._belief.show("stateAfterFailure", left)
+        if left is not None and outcome.blame is None:
+            shown = self._belief.show(*left)
             yield from self._telling.outcome(message, call.service, MINUS, shown, (asked.index,))
 
 

@@ -17,6 +17,7 @@ from mmsverify.concrete.belief.act import Refusal, settle, take
 from mmsverify.concrete.belief.blame import Blame, before, blame
 from mmsverify.concrete.belief.constraints import Conflict, Constraints
 from mmsverify.concrete.belief.coverage import Coverage
+from mmsverify.concrete.belief.given import Watch, as_known
 from mmsverify.concrete.belief.goal import Goal
 from mmsverify.concrete.belief.ground import Ground, negated
 from mmsverify.concrete.belief.internal import Outstanding, Unseen, decided, not_accepted, undecided
@@ -25,11 +26,11 @@ from mmsverify.concrete.belief.partial import OTHER, Key, Partial, World
 from mmsverify.concrete.belief.ready import Rows
 from mmsverify.concrete.belief.resync import forced, learned_anew, sight_lost
 from mmsverify.concrete.belief.several import distinct, widened, written
-from mmsverify.concrete.belief.values import ABSENT, NO, YES, Env, exactly, plain
+from mmsverify.concrete.belief.values import YES, Env, exactly, plain
 from mmsverify.model.expr import Expr, Ref
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import MINUS, PLUS, Claim, Clause, Row
-from mmsverify.model.sorts import ElementSort, Enumeration, EnumSort, Sort
+from mmsverify.model.sorts import ElementSort
 
 LARGEST_BELIEF = 300
 
@@ -44,13 +45,6 @@ class Outcome:
     blame: Blame | None = None
     written: frozenset[Key] = frozenset()
     clauses: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
-
-
-@dataclass(slots=True)
-class _Watch:
-    """An observation that was asked for: the beliefs since then, for it may show any of these instants."""
-
-    earlier: list[list[Partial]] = field(default_factory=list)
 
 
 class Belief:
@@ -83,7 +77,7 @@ class Belief:
             )
         self._outstanding: dict[str, Outstanding] = {}
         self._unsure: set[str] = set()
-        self._watches: dict[str, _Watch] = {}
+        self._watches: dict[str, Watch] = {}
         self._shown: Goal | None = None
         self._know(facts or {})
 
@@ -122,7 +116,7 @@ class Belief:
                 if parameter.name in bindings and parameter.name not in env:
                     given = bindings[parameter.name]
                     self._see_all(parameter.of, given)
-                    env[parameter.name] = _given(given, parameter.of)
+                    env[parameter.name] = as_known(given, parameter.of)
         return env
 
     def may_be(self, name: str, args: tuple[str, ...], word: str) -> bool:
@@ -211,11 +205,20 @@ class Belief:
         return [found for found in settled if not isinstance(found, Conflict)]
 
     def respond(
-        self, slot: str, service: str, bindings: Mapping[str, Any], answer: str, *, local: bool = False
+        self,
+        slot: str,
+        service: str,
+        bindings: Mapping[str, Any],
+        answer: str,
+        *,
+        local: bool = False,
+        beside: tuple[str, Mapping[str, Any]] | None = None,
     ) -> Outcome:
         """The responder answers.
 
         ``local``: a result(-) names a local reason, which needs no explanation by the state, nor tells of it.
+        ``beside``: what the message of a result(-) shows of the state, too. No reason for the result(-)
+        counts that it excludes, if it is what a responder would show that has no reason.
         """
         env = self.environment("response", service, bindings)
         self._outstanding.pop(slot, None)
@@ -228,6 +231,10 @@ class Belief:
         if slot in self._unsure:
             self._unsure.discard(slot)
             after += [state for state in earlier if decided(state, slot) is None]
+        if after and not local and beside is not None and not self._shows(after, *beside):
+            groundless = forced(goal, not_accepted(earlier, slot), self.constraints)
+            if shown := self._shows(groundless, *beside):
+                return self._refused(service, ready, env, shown)
         if local and answer == MINUS:
             after += forced(goal, not_accepted(ready, slot), self.constraints)
         if after:
@@ -240,6 +247,12 @@ class Belief:
         if answer == MINUS:
             return self._refused(service, ready, env, [*effects, *self.states])
         return self._violated(goal, ready, refusals, expected=(MINUS,), then=[*effects, *self.states])
+
+    def _shows(self, states: Sequence[Partial], service: str, bindings: Mapping[str, Any]) -> list[Partial]:
+        """The states among these, with all that may happen unseen, that show this."""
+        env = self.environment("shown", service, bindings)
+        goal = Goal(self._rows["shown", service], env, self.made)
+        return self._agreeing(goal, self.unseen.before(states, "observation", self._outstanding, goal))[0]
 
     def _refused(self, service: str, ready: Sequence[Partial], env: Env, then: list[Partial]) -> Outcome:
         """A result(-) for which nothing stands: a warning, for the text does not list every reason."""
@@ -278,7 +291,7 @@ class Belief:
 
     def watch(self, slot: str) -> None:
         """State is asked for: the answer may show it at any instant from now on."""
-        self._watches[slot] = _Watch()
+        self._watches[slot] = Watch()
 
     def watched(self, slot: str) -> int | None:
         """How many instants an answer may show besides the present; ``None`` where nobody watches."""
@@ -385,15 +398,3 @@ class Belief:
         found = blame(self.ground, near, goal, refusals, expected=expected) if goal.rows else None
         self._become(then or earlier)
         return Outcome(found, written(earlier, self.states))
-
-
-def _given(given: Any, sort: Sort | None = None) -> Any:
-    if given is None:
-        return ABSENT
-    if isinstance(given, bool):
-        return YES if given else NO
-    if isinstance(sort, EnumSort) and isinstance(given, str):
-        return exactly(next(member for member in sort.members if member.value == given))
-    if isinstance(given, int | Enumeration):
-        return exactly(given)
-    return given if isinstance(given, str) else frozenset(given)
