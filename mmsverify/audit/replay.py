@@ -61,8 +61,9 @@ class Replay:
             domains = {domain for entry in predefined for domain in entry.get("domains", ())}
             sizes = {"PI": len(predefined), "Client": 0, "Request": 0, "Domain": len(domains)}
             _, facts = scenario(sizes, self.profile)
-            # R_CAL is a predefined name (8.3.2): of what the profile does not predefine nothing calibrates.
-            facts = {**facts, ("calibrates", (OTHER,)): False}
+            # R_CAL is a predefined name (8.3.2), and so are the standardized domains (8.2): of what the
+            # profile does not predefine nothing calibrates, and nothing is one of them.
+            facts = {**facts, ("calibrates", (OTHER,)): False, ("standard_domain", (OTHER,)): False}
             # Lists at power-on tell nothing of a recording that may begin at any time.
             facts = {key: held for key, held in facts.items() if key[0] != "predefined_controls"}
             base = frozenset(name for owner, name in self._ahead.base_only if owner == vmd)
