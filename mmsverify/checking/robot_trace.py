@@ -73,6 +73,7 @@ def profile_of(first: PathStep) -> dict[str, str]:
         "model": "mms-robot",
         "associations": "single" if state["single_association"] else "multiple",
         "step_limited": json.dumps(state["step_limited"]),
+        "single_task": json.dumps(state["single_task"]),
         "predefined": json.dumps(predefined),
         "selected_at_power_on": chosen[0] if chosen else "",
     }
