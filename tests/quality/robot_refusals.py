@@ -14,6 +14,7 @@ from typing import Any
 
 import z3
 from robot_acts import Act
+from robot_sayable import sayable
 from robot_talk import Talk, row_name
 
 from mmsverify.concrete import Scope, scope_for
@@ -23,9 +24,8 @@ from mmsverify.concrete.trace_path import readable
 from mmsverify.model import ModelData, Row
 from mmsverify.model import expr as ex
 from mmsverify.model.expr import Cell, Expr, Ref
-from mmsverify.model.rewrite import bind
 from mmsverify.model.rows import MINUS, PLUS, after
-from mmsverify.model.sorts import BOOL, EnumSort, Sort
+from mmsverify.model.sorts import BOOL, Sort
 from mmsverify.model.terms import SetOf
 from mmsverify.symbolic.states import ClosedWorld, Enumerator
 
@@ -138,11 +138,44 @@ class Meeting(Enumerator):
                 self.solver.add(wish)
                 if self.solver.check() != z3.sat:
                     self.solver.pop()
-            assert self.solver.check() == z3.sat
-            return self._read_situation(row, self.solver.model())
+            return self._read_situation(row, self._pinned(row))
         finally:
             while self.solver.num_scopes():
                 self.solver.pop()
+
+    def _pinned(self, row: Row) -> z3.ModelRef:
+        """The first model that there is, value by value: whatever was asked before, the same is found."""
+        assert self.solver.check() == z3.sat
+        found = self.solver.model()
+        for choice in (*self._choices(row), *map(self._values, self._now, self._sorts)):
+            for wish in choice:
+                if z3.is_true(found.eval(wish, model_completion=True)):
+                    self.solver.add(wish)
+                    break
+                self.solver.push()
+                self.solver.add(wish)
+                if self.solver.check() == z3.sat:
+                    found = self.solver.model()
+                    break
+                self.solver.pop()
+        return found
+
+    def _values(self, term: z3.ExprRef, of: Sort) -> list[z3.BoolRef]:
+        return [term == self._term(of, value) for value in self.world.values(of)]
+
+    def _choices(self, row: Row) -> Iterator[list[z3.BoolRef]]:
+        """What each parameter may be, absent or empty first."""
+        for parameter in row.parameters:
+            if isinstance(parameter, SetOf):
+                has = self.translator.parameter(parameter)
+                for name in self.scope.names(parameter.of):
+                    member = has(self._term(parameter.of, name))
+                    yield [z3.Not(member), member]
+                continue
+            if parameter.name in row.on.optional:
+                present = self.translator.formula(ex.Present(parameter.name))
+                yield [z3.Not(present), present]
+            yield self._values(self.translator.term(parameter), parameter.of)
 
     def _asked(self, row: Row, condition: Expr) -> Expr:
         """The condition after the request's indication, where the model has one that applies."""
@@ -220,12 +253,8 @@ class Meeting(Enumerator):
                 ex.disjunction(*(self._is("source", x, d) for d in names["Domain"])),
                 self._is("upload_state", x, value="UPLOADING"),
             )
-            for one in names["Client"]:
-                yield from (
-                    ex.negation(ex.conjunction(self._is("uploads", one, x), self._is("uploads", two, x)))
-                    for two in names["Client"]
-                    if two > one
-                )
+            # A number names an upload on its association only.
+            yield from (ex.negation(self._is("uploads", u, x)) for u in names["Client"] if u != ME)
             for one in names["Domain"]:
                 yield from (
                     ex.negation(ex.conjunction(self._is("source", x, one), self._is("source", x, two)))
@@ -239,12 +268,17 @@ class Meeting(Enumerator):
         )
 
     def _plain(self, row: Row) -> Iterator[Expr]:
-        """The program invocation named is of the kind of which messages tell most."""
+        """What is named is of the kind of which messages tell most."""
         pi = next((p for p in row.parameters if isinstance(p, Ref) and p.name == "pi"), None)
         of = self.model.signatures["control"].of
         if pi is not None and row.on.service in ("start", "resume", "stop", "reset"):
             for kind in ("NORMAL", "CONTROLLING"):
                 yield ex.equal(Cell("control", (pi,), of), self._word(of, kind))
+        # Of a domain that is not sharable, a recording that begins later leaves open whether it is in use.
+        if any(parameter.name == "domains" for parameter in row.parameters):
+            for d in self.scope.elements["Domain"]:
+                named = ex.Member("domains", Ref(f"the {d}", self.model.sorts["Domain"]))
+                yield ex.disjunction(ex.negation(named), self._is("sharable", d))
 
     def _word(self, of: Sort, word: Any) -> ex.Const:
         meant = self._meant(of, word)
@@ -344,42 +378,3 @@ def exchange(model: ModelData, service: str, user: str, **given: Any) -> list[Ac
 def known(condition: Expr, row: Row) -> bool:
     """Whether the row's parameters tell all that the condition speaks of."""
     return ex.refs_of(condition).keys() <= {parameter.name for parameter in row.parameters}
-
-
-def sayable(row: Row) -> Iterator[Expr]:
-    """What a request can say: parameters that no message can carry together are kept apart."""
-    has = {parameter.name: parameter for parameter in row.parameters}
-
-    def flag(name: str) -> Expr:
-        found = has[name]
-        assert isinstance(found, Ref)
-        return found
-
-    limited: Expr = ex.Present("limit")
-    if "limit" in has:
-        (mode,) = (parameter for name, parameter in has.items() if name == "limit")
-        assert isinstance(mode, Ref)
-        assert isinstance(mode.of, EnumSort)
-        free = ex.conjunction(limited, ex.equal(mode, ex.Const(mode.of.members[0], mode.of)))
-        none = ex.equal(flag("count"), ex.Const(0, flag("count").sort))
-        yield ex.disjunction(ex.conjunction(limited, ex.negation(free)), none)
-    if "location_given" in has:
-        yield ex.disjunction(ex.negation(flag("location_given")), limited)
-    if "type_given" in has:
-        yield ex.disjunction(flag("type_given"), ex.negation(limited))
-    if row.on.service == "alterPI":
-        yield limited
-    if "named_twice" in has:
-        controlled = has["controlled"]
-        assert isinstance(controlled, SetOf)
-        one = Ref("one", controlled.of)
-        some = bind(False, (one,), ex.Member("controlled", one))
-        yield ex.disjunction(ex.negation(flag("named_twice")), some)
-        yield ex.disjunction(ex.negation(some), ex.Present("controlling"))
-    if "binds_arm" in has:
-        domains = has["domains"]
-        assert isinstance(domains, SetOf)
-        one = Ref("one", domains.of)
-        arm = bind(False, (one,), ex.conjunction(ex.Member("domains", one), Cell("arm_domain", (one,), BOOL)))
-        yield ex.equal(flag("binds_arm"), arm)
-        yield bind(False, (one,), ex.Member("domains", one))
