@@ -119,7 +119,6 @@ class Trial:
             self.blamed = True
             self.told.append(f"BLAMED {blame.rule} {blame.says} {blame.before}")
         self.missed = blame is None and not possible
-        self.missed = blame is None and not possible
         return possible and blame is None
 
 
@@ -162,6 +161,9 @@ def played(made: Trial, steps: int) -> Trial:
 def unshowable(made: Trial) -> str:
     """A state of the exact belief that the belief cannot be shown, with what was told, if there is one."""
     left = sorted(made.exact.closed(), key=str)
+    for sort in made.model.sorts.values():  # twins share their world: what one sees, all must have seen
+        for name in made.scope.names(sort):
+            made.belief.see(sort, name)
     for frozen in made.random.sample(left, min(4, len(left))):
         state = made.exact.valuation(frozen)
         belief = copied(made.belief)
