@@ -10,10 +10,11 @@ from __future__ import annotations
 import json
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
-from mmsverify.errors import DecodeError
+from mmsverify.errors import DecodeError, InputError
 from mmsverify.formats import mms
 from mmsverify.formats.mms import Pdu
 from mmsverify.formats.trace import TraceMessage
@@ -61,13 +62,17 @@ class Lookahead:
         self._begun: dict[Key, bool] = {}
         self._requests: dict[Key, _Requests] = defaultdict(_Requests)
         self._blind: dict[Key, list[Span]] = defaultdict(list)
-        for message in messages:
-            if message.message_encoding == "mms-ber":
-                self._heard(message)
-            elif (happened := link(message)) is not None:
-                key = message.metadata.get("name", ""), happened[0]
-                self._requests[key].begin(message.index if happened[1] == "gap" else None)
+        with suppress(InputError):  # what cannot be read on is told when it is judged
+            for message in messages:
+                self._look(message)
         self.base_only = frozenset(key for key, robot in self._begun.items() if not robot)
+
+    def _look(self, message: TraceMessage) -> None:
+        if message.message_encoding == "mms-ber":
+            self._heard(message)
+        elif (happened := link(message)) is not None:
+            key = message.metadata.get("name", ""), happened[0]
+            self._requests[key].begin(message.index if happened[1] == "gap" else None)
 
     def blind(self, vmd: str) -> list[Span]:
         """Where requests to that device may be waiting that the recording does not show."""

@@ -269,3 +269,16 @@ def test_a_domain_may_show_an_upload_whose_beginning_is_not_answered_yet(listen:
     made.call("getDomainAttributes", "JOB", gives=gives)
     made.answer(begun, "initiateUploadSequence", {"ulsmID": 1, "listOfCapabilities": []})
     assert rules(listen(made.recording)) == []
+
+
+def test_a_damaged_recording_does_not_keep_others_from_being_audited(tmp_path: Path) -> None:
+    good, bad = tmp_path / "good.mcap", tmp_path / "bad.mcap"
+    made = cell()
+    made.status(LOADED)
+    made.recording.write(good, None)
+    octets = bytearray(good.read_bytes())
+    octets[140] ^= 0xFF
+    bad.write_bytes(octets)
+    audit = audit_traces([bad, good], profile=None, model=None)
+    assert [Path(entry.path).name for entry in audit.inputs][-1] == "good.mcap"
+    assert [(f.rule, Path(f.path).name) for f in audit.findings] == [("input.unreadable", "bad.mcap")]
