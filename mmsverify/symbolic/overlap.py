@@ -19,7 +19,7 @@ from mmsverify.model.model import ModelData
 from mmsverify.model.rewrite import bind, rebuilt
 from mmsverify.model.rows import Claim, Row, after
 from mmsverify.model.terms import SetOf
-from mmsverify.symbolic.translate import Translator
+from mmsverify.symbolic.allowed import Allowed
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,11 +43,7 @@ class Coverage:
 
     def __init__(self, model: ModelData, invariants: Sequence[Claim], *, timeout: float = 5.0) -> None:
         self.model = model
-        self.translator = Translator(model)
-        self.solver = z3.Solver()
-        self.solver.set("timeout", int(timeout * 1000))
-        given = [*(c.condition for c in model.assumptions), *(c.formula for c in invariants)]
-        self.solver.add(*map(self.translator.formula, given), *self.translator.bounds())
+        self._allowed = Allowed(model, invariants, timeout=timeout)
 
     def overlaps(self) -> Iterator[Overlap]:
         """Pairs of rows of one event that can both be taken, and then answer or act differently."""
@@ -60,7 +56,7 @@ class Coverage:
         """Events whose answer is due (responses) but for which no row can be taken in some state."""
         for event, rows in self._events().items():
             if rows[0].on.phase == "response":
-                answer = self._ask(*(ex.negation(_possible(row)) for row in rows))
+                answer = self._allowed.ask(*(ex.negation(_possible(row)) for row in rows))
                 if answer != z3.unsat:
                     yield Unanswered(event, answer == z3.sat)
 
@@ -75,7 +71,7 @@ class Coverage:
         if left.answer == right.answer and set(left.assigns) == set(right.assigns):
             return False
         differ = ex.TRUE if left.answer != right.answer else ex.negation(self._same_effect(left, right))
-        return bool(self._ask(left.guard_formula, right.guard_formula, differ) != z3.unsat)
+        return self._allowed.possible(left.guard_formula, right.guard_formula, differ)
 
     def _same_effect(self, left: Row, right: Row) -> Expr:
         """Every cell that either row writes gets the same value from both."""
@@ -86,13 +82,6 @@ class Coverage:
         refs = tuple(ex.Ref(f"at{i}", sort) for i, sort in enumerate(signature.sorts))
         cell = ex.Cell(name, refs, signature.of)
         return bind(True, refs, ex.equal(after(cell, left.assigns), after(cell, right.assigns)))
-
-    def _ask(self, *conditions: Expr) -> z3.CheckSatResult:
-        self.solver.push()
-        self.solver.add(*map(self.translator.formula, conditions))
-        answer = self.solver.check()
-        self.solver.pop()
-        return answer
 
 
 def _exclusive(left: Row, right: Row) -> bool:
