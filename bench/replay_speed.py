@@ -26,9 +26,9 @@ from mmsverify.resources import models_dir
 TESTS = Path(__file__).parent.parent / "tests"
 sys.path[:0] = [str(TESTS), str(TESTS / "quality")]
 
+from robot_conversations import ARM  # noqa: E402
 from robot_random import Chance, beginning  # noqa: E402
 
-ARM = {"name": "R_ARM", "control": "CONTROLLED", "domains": ["R_ARM"], "deletable": False}
 PROFILE = {"associations": "single", "predefined": [ARM]}
 SIZES = {"PI": 6, "Client": 1, "Request": 1}
 

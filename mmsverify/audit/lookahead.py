@@ -14,14 +14,16 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
 
+from mmsverify.audit.exchange import ANSWERS, OTHER_SIDE
+from mmsverify.audit.negotiation import ADDITIONAL
 from mmsverify.errors import DecodeError, InputError
 from mmsverify.formats import mms
 from mmsverify.formats.mms import Pdu
 from mmsverify.formats.trace import TraceMessage
 
 INITIATES = (b"\xa8", b"\xa9")
-ANSWERS = frozenset({"confirmed-ResponsePDU", "confirmed-ErrorPDU", "rejectPDU"})
-OTHER_SIDE = {"client": "server", "server": "client"}
+ENDS = ANSWERS | {"rejectPDU"}
+"""PDUs after which a request waits no more."""
 
 Key = tuple[str, str]
 """A device and an association of it."""
@@ -49,7 +51,7 @@ class _Requests:
             self.shown.add((sender, pdu.invoke_id))
             return False
         key = OTHER_SIDE[sender], pdu.invoke_id
-        return pdu.kind in ANSWERS and key not in self.shown
+        return pdu.kind in ENDS and key not in self.shown
 
 
 class Lookahead:
@@ -127,5 +129,4 @@ def _may_have_detail(octets: bytes) -> bool:
 
 
 def _has_detail(octets: bytes) -> bool:
-    own = ("select", "vMDStop", "vMDReset", "alterPI")
-    return any(pdu.detail is not None or pdu.service in own for pdu in _decoded(octets))
+    return any(pdu.detail is not None or pdu.service in ADDITIONAL for pdu in _decoded(octets))

@@ -23,7 +23,7 @@ def sayable(row: Row) -> Iterator[Expr]:
 
     limited: Expr = ex.Present("limit")
     if "limit" in has:
-        (mode,) = (parameter for name, parameter in has.items() if name == "limit")
+        mode = has["limit"]
         assert isinstance(mode, Ref)
         assert isinstance(mode.of, EnumSort)
         free = ex.conjunction(limited, ex.equal(mode, ex.Const(mode.of.members[0], mode.of)))

@@ -12,17 +12,15 @@ from pathlib import Path
 
 import pytest
 from robot import robot
+from robot_conversations import ARM, CALIBRATION, blamed
 from robot_refusals import ME, Liar, Meeting, Situation, accepting, refusing
 from robot_talk import row_name
 from unreachable import Reach
 
-from mmsverify.auditing import audit_traces
 from mmsverify.concrete.evaluate import Moment, holds, updated
 from mmsverify.model import Row
 from mmsverify.results import Finding
 
-ARM = {"name": "R_ARM", "control": "CONTROLLED", "domains": ["R_ARM"], "deletable": False}
-CALIBRATION = {"name": "R_CAL", "control": "NORMAL", "domains": ["R_CAL"], "deletable": False}
 MULTIPLE = {"predefined": [ARM, CALIBRATION], "associations": "multiple"}
 PROFILES = (MULTIPLE, {**MULTIPLE, "step_limited": False}, {**MULTIPLE, "single_task": True})
 SIZES = {"PI": 4, "Client": 2, "Request": 1, "Domain": 4, "Upload": 2}
@@ -88,11 +86,6 @@ def met(step: Row, way: str) -> Situation | None:
     return next((situation for situation in found if situation is not None), None)
 
 
-def audited(talk: Liar, path: Path) -> list[Finding]:
-    findings = audit_traces([talk.write(path)], profile=None, model=None).findings
-    return [finding for finding in findings if finding.severity != "note"]
-
-
 def broken(situation: Situation, row: Row, step: Row) -> tuple[Liar, int]:
     """The conversation in which the robot answers by the row, whatever its guard says; the answer's index.
 
@@ -132,7 +125,7 @@ def broken_one_way(name: str, way: str, path: Path) -> tuple[Row, int, list[Find
     situation = met(step, "against" if way == ACCEPTED else "nothing_against")
     assert situation is not None, "no situation is found"
     talk, index = broken(situation, situation.row if way == ACCEPTED else step, step)
-    return step, index, audited(talk, path)
+    return step, index, blamed(talk, path)
 
 
 def cases() -> Iterator[object]:

@@ -17,7 +17,6 @@ OPEN: Mapping[str, str] = {
     "refused_create": "the refusal of Create may be due to what was never shown",
     "without_control_stop_free": "told again: Stop was not performed either",
     "without_control_stop_taken": "told again: Stop was not performed either",
-    "refused_stop_arm": "told again: the state in the refusal contradicts what explains the refusal",
     "start_calibrating": "told at what is seen next, as an error, and again: nothing was performed",
     "calibrate_executing": "told at what is seen next, as an error, and again: nothing was performed",
     "vmd_reset_executing": "told again: VMD Reset deleted nothing",

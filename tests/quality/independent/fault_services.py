@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from independent import views
 from independent.desk import (
     Desk,
@@ -140,15 +138,9 @@ def stopped(d: Desk) -> None:
 
 for _name, _ask in CHANGES.items():
     _gives = {"write": [("success", None)]}.get(_name)
-
-    def _while_local(d: Desk, ask: Ask = _ask, gives: Any = _gives) -> None:
-        local(d)
-        body = views.status(d.robot)[0] if ask[0] == "vMDReset" else gives
-        d.accepts(*ask, gives=body)
-
     add(
         f"local_{_name}",
-        _while_local,
+        wrongly(local, *_ask, gives=_gives),
         "R-3.2.1-1",
         "R-T1-1",
         "R-6.2.1-6",
@@ -157,16 +149,9 @@ for _name, _ask in CHANGES.items():
         "RP-10",
         "RP-11",
     )
-
-    def _while_stopped(d: Desk, ask: Ask = _ask, gives: Any = _gives) -> None:
-        stopped(d)
-        if ask[0] != "vMDStop":
-            body = views.status(d.robot)[0] if ask[0] == "vMDReset" else gives
-            d.accepts(*ask, gives=body)
-
     if _name != "vmd_stop":
         add(
-            f"intervention_{_name}", _while_stopped, "R-5.3.1.3.3.13*", "R-5.3.1.3.2.6*", "R-T1*", "R-T8*",
+            f"intervention_{_name}", wrongly(stopped, *_ask, gives=_gives), "R-5.3.1.3.3.13*", "R-5.3.1.3.2.6*", "R-T1*", "R-T8*",
             "R-7.4.2.2-5", "R-6.3.4.7*", "B-*", "RP-09", "RP-11", STEPS.get(_ask[0], "RP-09"),
         )  # fmt: skip
 

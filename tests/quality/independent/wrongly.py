@@ -14,11 +14,18 @@ SEVERAL = {"several": True}
 CTRL = {"semaphoreName": pdus.vmd("R_CTRL")}
 
 
-def wrongly(come: Callable[[Desk], None], service: str, body: Any, detail: Any = None, why: str = "") -> Any:
+def wrongly(
+    come: Callable[[Desk], None],
+    service: str,
+    body: Any,
+    detail: Any = None,
+    why: str = "",
+    gives: Any = None,
+) -> Any:
     def run(d: Desk) -> None:
         come(d)
-        gives = views.status(d.robot)[0] if service == "vMDReset" else None
-        d.accepts(service, body, detail, why=why, gives=gives)
+        shown = views.status(d.robot)[0] if service == "vMDReset" else gives
+        d.accepts(service, body, detail, why=why, gives=shown)
 
     return run
 
