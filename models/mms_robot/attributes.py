@@ -11,7 +11,6 @@ from mmsverify.model import (
     any_of,
     for_all,
     for_some,
-    if_,
     integer,
     internal,
     parameter,
@@ -61,18 +60,7 @@ class Attributes(Vocabulary):
         "R-7.3.3.3.3-e5", "R-7.3.3.3.1.1-2", says="execution begins at the start location, or at the first step where none is given")  # fmt: skip
 
     # Running modes and their counters (5.3.2, 6.3.2.5 to 6.3.2.7).
-    set_as_asked = (
-        (mode[pi].next == limit)
-        & ((limit == Mode.CYCLE_LIMITED) >> (cycles[pi].next == count))
-        & ((limit == Mode.STEP_LIMITED) >> (steps[pi].next == count))
-    )
     told_mode = answered(PLUS) & (control[pi] == Control.CONTROLLING) & limit.present
-    start_sets_mode = Step("R-7.3.3.3.3-e1", (service_is("start") & told_mode) >> set_as_asked, "R-7.3.3.3.3-e2", "R-7.3.3.3.3-e3",
-                           "R-7.3.3.3.1.4-1", "R-7.3.3.3.1.5-1", "R-7.3.3.3.4.2-1", says="Start sets the running mode and its count")  # fmt: skip
-    resume_sets_mode = Step("R-7.3.3.5.3-f1", (service_is("resume") & told_mode) >> set_as_asked, "R-7.3.3.5.3-f2", "R-7.3.3.5.3-f3",
-                            "R-7.3.3.5.1.5-1", "R-7.3.3.5.1.6-1", says="Resume in change mode sets the running mode and its count")  # fmt: skip
-    alter_sets_mode = Step("R-7.4.5.2-c1", (service_is("alterPI") & told_mode) >> set_as_asked, "R-7.4.5.2-c2", "R-7.4.5.2-c3",
-                           says="AlterProgramInvocationAttributes sets the running mode and its count")  # fmt: skip
     mode_kept = Step("R-7.3.3.5.3-e2", (service_is("resume") & answered(PLUS) & ~limit.present) >> unchanged(mode, cycles, steps),
                      says="Resume in continue mode keeps the running mode and its counts")  # fmt: skip
     counted = limit.present & (limit != Mode.FREE_RUN)
@@ -90,17 +78,19 @@ class Attributes(Vocabulary):
                       says="the remaining cycles become fewer, and only while the program runs")  # fmt: skip
     steps_run = Step("R-6.3.2.7-1", for_all(p)((steps[p].next != steps[p]) >> (setting | (runs[p] & (steps[p].next < steps[p])))),
                      says="the remaining steps become fewer, and only while the program runs")  # fmt: skip
-    cycles_used_up = Step(
-        "R-6.3.2.5-3", (service_is("end_of_execution") & (mode[pi] == Mode.CYCLE_LIMITED)) >> (
-            (cycles[pi].next == 0) & (state[pi].next == if_(reusable[pi], State.IDLE, State.UNRUNNABLE))),
-        says="a CYCLE-LIMITED program that ends has no cycle left, and returns to IDLE")  # fmt: skip
-    steps_used_up = Step(
-        "R-6.3.2.5-4", service_is("steps_exhausted") >> ((mode[pi] == Mode.STEP_LIMITED) & (steps[pi].next == 0) & (state[pi].next == State.STOPPED)),
-        says="a STEP-LIMITED program that has no step left is STOPPED")  # fmt: skip
-    counters_stop_nothing_else = Step(
-        "R-6.3.2.5-2", (service_is("counts_cycles", "counts_steps", "steps_exhausted")) >> for_all(p)(
-            (mode[p] == Mode.FREE_RUN) >> (state[p].next == state[p])),
-        says="no counter stops a FREE-RUN program")  # fmt: skip
+    # What happens to a task program when nobody does anything to it: told by what becomes of it.
+    by_somebody = service_is("stop", "reset", "vMDStop", "vMDReset", "emergency_stop", "operator_recovers")
+    task_by_itself = (control[p] == Control.CONTROLLING) & (state[p] == State.RUNNING) & ~by_somebody
+    nothing_counts_freely = Step(
+        "R-6.3.2.5-2", for_all(p)(((mode[p] == Mode.FREE_RUN) & ~setting) >> ((cycles[p].next == cycles[p]) & (steps[p].next == steps[p]))),
+        says="in FREE-RUN nothing is counted that could end execution")  # fmt: skip
+    returns_without_cycles = Step(
+        "R-6.3.2.5-3", for_all(p)((task_by_itself & (mode[p] == Mode.CYCLE_LIMITED) & (state[p].next == State.IDLE)) >> (cycles[p].next == 0)),
+        says="a CYCLE-LIMITED task program that returns to IDLE by itself has no cycle left")  # fmt: skip
+    stops_without_steps = Step(
+        "R-6.3.2.5-4", for_all(p)((task_by_itself & ~service_is("fails_by_itself") & (state[p].next == State.STOPPED))
+                                  >> ((mode[p] == Mode.STEP_LIMITED) & (steps[p].next == 0))),
+        "R-6.3.2.5-2", says="a task program that is STOPPED by itself is STEP-LIMITED and has no step left")  # fmt: skip
     runs_freely = Sometimes(
         "R-5.3.2-3",
         for_some(p)(

@@ -41,4 +41,5 @@ class Events(Vocabulary):
     )
     interlocks_become_violated = Sometimes("R-8.7.2-1", ~interlocks_violated() & interlocks_violated().next)
     local_control_changes_sides = Sometimes("R-8.7.3-1", local_control() & ~local_control().next)
-    arm_stops_running = Sometimes("R-8.7.4-1", for_some(p)(standard_arm[p] & runs[p] & ~runs[p].next))
+    arm_stops_running = Sometimes("R-8.7.4-1", for_some(p)(standard_arm[p] & runs[p] & ~runs[p].next),
+                                  provided=for_some(p)(standard_arm[p]))  # fmt: skip

@@ -22,7 +22,7 @@ from mmsverify.model import (
 from .vocabulary import Control, Logical, Mode, Physical, RobotState, State, Vocabulary
 
 BY_MESSAGE = (
-    "createProgramInvocation", "deleteProgramInvocation", "kill", "start", "stop", "resume", "reset", "select", "vMDStop", "vMDReset",
+    "createProgramInvocation", "deleteProgramInvocation", "kill", "start", "stop", "resume", "reset", "select", "alterPI", "vMDStop", "vMDReset",
 )  # fmt: skip
 
 
@@ -282,8 +282,11 @@ class Properties(Vocabulary):
     remote_cannot_in_local_control = Step(
         "R-3.2.1-1",
         (local_control() & service_is(*BY_MESSAGE) & ~panel & ~destructive)
-        >> unchanged(selected, controls, controller, motion, control, deletable),
-    )
+        >> (unchanged(selected, controls, controller, motion, control, deletable, reusable, arm, mode, cycles, steps, logical, physical,
+                      local_control, error_code, located, starts_elsewhere)
+            & for_all(p)(settled[p].next == settled[p])),
+        "R-6.2.1-6", says="in local control no service from afar changes anything but that it is being handled",
+    )  # fmt: skip
     refusal_has_no_effect = Step(
         "R-7.4.4.2-i", (answered(MINUS) & ~destructive) >> unchanged(control, deletable, reusable, arm, controls, controller, mode, cycles, steps, selected, motion,
                                                    local_control, logical, physical, holder, robot_state),

@@ -44,24 +44,6 @@ class Services(Vocabulary):
     given_control_is_free = Step("R-8.6.1-2", (service_is("relinquishControl") & answered(PLUS)) >> ~holder[user].next, "B-SEMAPHORE",
                                  says="who gave control back does not hold R_CTRL")  # fmt: skip
 
-    # Who is served, and when: a client that holds R_CTRL, or somebody at the panel.
-    in_charge = holder[user] | panel
-    start_needs_control = Step("R-7.3.3.3.3-b", (service_is("start") & answered(PLUS)) >> in_charge,
-                       says="Start is for the client that holds R_CTRL")  # fmt: skip
-    stop_needs_control = Step("R-7.3.3.4.1-b", (service_is("stop") & answered(PLUS)) >> in_charge,
-                       says="Stop is for the client that holds R_CTRL")  # fmt: skip
-    resume_needs_control = Step("R-7.3.3.5.3-b", (service_is("resume") & answered(PLUS)) >> in_charge,
-                       says="Resume is for the client that holds R_CTRL")  # fmt: skip
-    reset_needs_control = Step("R-7.3.3.6.1-b", (service_is("reset") & answered(PLUS)) >> in_charge,
-                       says="Reset is for the client that holds R_CTRL")  # fmt: skip
-    kill_needs_control = Step("R-7.3.3.7.1-b", (service_is("kill") & answered(PLUS)) >> in_charge,
-                       says="Kill is for the client that holds R_CTRL")  # fmt: skip
-    delete_needs_control = Step("R-7.3.3.8.1-b", (service_is("deleteProgramInvocation") & answered(PLUS)) >> in_charge,
-                       says="DeleteProgramInvocation is for the client that holds R_CTRL")  # fmt: skip
-    vmd_stop_needs_control = Step("R-7.4.2.2-1", (service_is("vMDStop") & answered(PLUS)) >> in_charge,
-                       says="VMD Stop is for the client that holds R_CTRL")  # fmt: skip
-    vmd_reset_needs_control = Step("R-7.4.3.2-a", (service_is("vMDReset") & answered(PLUS)) >> in_charge,
-                       says="VMD Reset is for the client that holds R_CTRL")  # fmt: skip
     started_was_selected = Step(
         "R-7.3.3.3.3-d0", (service_is("start") & answered(PLUS) & (control[pi] == Control.CONTROLLING)) >> selected[pi],
         says="a task program that is started is the selected one")  # fmt: skip

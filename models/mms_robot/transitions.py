@@ -116,7 +116,9 @@ class Transitions(Vocabulary):
     stopped_arm_rests = Step(
         "R-7.3.3.4.1-2", (service_is("stop") & answered(PLUS) & arm[pi] & (control[pi] == Control.CONTROLLED)) >> ~motion().next,
         says="stopping the arm's program stops the arm at once")  # fmt: skip
-    stops_by_arm = Sometimes("R-6.3.2.2-3", motion() & ~motion().next & service_is("stop") & standard_arm[pi], "R-6.3.5.9-2")  # fmt: skip
+    stops_by_arm = Sometimes(
+        "R-6.3.2.2-3", motion() & ~motion().next & service_is("stop") & arm[pi] & (control[pi] == Control.CONTROLLED), "R-6.3.5.9-2",
+        provided=for_some(p)(predefined[p] & predefined_arm[p] & (predefined_control[p] == Control.CONTROLLED)))  # fmt: skip
     stops_all = Sometimes("R-7.3.3.4.1-3", motion() & ~motion().next & service_is("vMDStop"), "R-6.3.2.2-3")  # fmt: skip
 
     # Running modes that a service sets (7.3.3.3.1, 7.3.3.5.1, 7.4.5.1).
@@ -134,9 +136,6 @@ class Transitions(Vocabulary):
         (service_is("start", "resume", "alterPI") & answered(PLUS) & limit.present & (limit == Mode.STEP_LIMITED) & (control[pi] == Control.CONTROLLING))
         >> (steps[pi].next == count),
         "R-7.3.3.5.1.6-1", "R-7.4.5.1.1.5-1", says="the remaining step count is the one that the request gave")  # fmt: skip
-    only_counted_end_by_count = Step(
-        "R-6.3.2.5-2", service_is("steps_exhausted") >> (mode[pi] == Mode.STEP_LIMITED),
-        says="no count ends a program that runs free")  # fmt: skip
 
     # The base state machine, which figure 10 refines (6.3.3): from, to.
     was, becomes = state[p], state[p].next

@@ -283,6 +283,12 @@ class Vocabulary(Model):
     )
     active = Derived(started[p] & (state[p] != State.STOPPED) | (state[p] == State.STARTING), over=[p])
     runs = Derived(state[p].isin([State.RUNNING, State.STOPPING]), over=[p])
+    settled = Derived(
+        if_(state[p] == State.STARTING, State.IDLE,
+            if_(state[p] == State.STOPPING, State.RUNNING,
+                if_(state[p].isin([State.RESUMING, State.RESETTING]), State.STOPPED, state[p]))),
+        over=[p], doc="the state that a request found before its indication, which its response(-) gives back",
+    )  # fmt: skip
     selected_started = Derived(for_some(p)(selected[p] & started[p]))
     in_use = Derived(for_some(p)(exists[p] & uses[p, d]), over=[d])
     in_transfer = Derived(
