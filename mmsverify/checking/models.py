@@ -26,6 +26,10 @@ from mmsverify.symbolic.overlap import Coverage
 FIRST_LOOK, SECOND_LOOK, LONG_LOOK, WHOLE_SCOPE = 40_000, 100_000, 400_000, 200_000
 """States to see in a world: between attempts at a proof, each harder than the last; in a scope asked for."""
 
+FAR_LOOKS = (8_000, 40_000, 200_000)
+"""States to see in a world while witnesses under a profile are looked for: of all claims at once, then of
+those to which the same variables matter."""
+
 
 def check_models(
     models: Sequence[str],
@@ -135,6 +139,8 @@ class _Check:
         worlds = small_worlds(self.model, self.request.profile)
         if any(c.kind != "sometimes" for c in claims):
             self._prove_all()
+        if self.request.profile is not None:
+            self._reach(claims, worlds)
         self._look(claims, worlds[:1], FIRST_LOOK)
         self._prove_harder(claims, self._open(claims))
         self._look(claims, worlds, SECOND_LOOK)
@@ -161,6 +167,13 @@ class _Check:
         wanted = [c for c in self._open(claims) if c.kind == "sometimes" or not self.request.unbounded]
         if wanted:
             self.explorer.explore(wanted, worlds, states=states, few=few)
+
+    def _reach(self, claims: Sequence[Claim], worlds: Sequence[World]) -> None:
+        """Witnesses under a profile: with all that it predefines, worlds are too large for other searches."""
+        for number, states in enumerate(FAR_LOOKS):
+            for world in worlds:
+                wanted = [c for c in self._open(claims) if c.kind == "sometimes"]
+                self.explorer.reach(wanted, world, states=states, together=number == 0)
 
     def _open(self, claims: Sequence[Claim]) -> list[Claim]:
         settled = self.proofs.proved | self.explorer.runs.keys() | self.refuted

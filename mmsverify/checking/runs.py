@@ -6,12 +6,12 @@ Claims to which the same variables matter are settled in one search, of the part
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mmsverify.checking.profile_facts import applies
 from mmsverify.checking.request import Progress, Request
 from mmsverify.checking.worlds import World
-from mmsverify.concrete import Machine, Scope, SearchResult, path_steps, replay, search
+from mmsverify.concrete import Machine, Path, Scope, SearchResult, path_steps, reach, replay, search
 from mmsverify.concrete.scope import CellKey, Value
 from mmsverify.concrete.slicing import cone, narrowed, restored, sliced
 from mmsverify.model import expr as ex
@@ -19,6 +19,9 @@ from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Claim
 from mmsverify.model.sorts import ElementSort
 from mmsverify.results import PathStep
+
+LARGEST_SET = 1
+"""Members of the sets that a search for witnesses alone tries: most rows ask only whether there is one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +68,27 @@ class Explorer:
                 self._tell(scope, group)
                 self._search(scope, group, states)
 
+    def reach(self, claims: Sequence[Claim], world: World, *, states: int, together: bool) -> None:
+        """Look for witnesses, not the shortest, in a world; ``together``: of all claims in one search."""
+        scope = world.scope(self.model)
+        left = [c for c in claims if c.name not in self.runs and self._concerns(scope, c)]
+        groups = [left] if together and left else list(alike(self.model, left))
+        for group in groups:
+            self._tell(scope, group)
+            part = sliced(self.model, group)
+            machine = Machine(part, replace(narrowed(part, scope), largest_set=LARGEST_SET))
+            possible = [claim for claim in group if not machine.out_of_reach(claim)]
+            if possible:
+                depth, seconds = self.request.depth, self.request.timeout
+                result = reach(machine, possible, max_states=states, max_depth=depth, max_seconds=seconds)
+                self._witnessed(scope, possible, result)
+
+    def _witnessed(self, scope: Scope, claims: Sequence[Claim], result: SearchResult) -> None:
+        for claim in claims:
+            self._spent(claim, result.seconds / len(claims))
+            if claim.name in result.witnesses:
+                self._believe(scope, claim, result.witnesses[claim.name])
+
     def shorten(self, claims: Sequence[Claim], worlds: Iterable[World], *, states: int) -> None:
         """Look for shorter counterexamples than those found, in worlds where the claims were not refuted."""
         for world in worlds:
@@ -100,7 +124,7 @@ class Explorer:
             max_states=states, max_depth=depth, max_seconds=self.request.timeout,
         )  # fmt: skip
         for claim in group:
-            self.seconds[claim.name] = self.seconds.get(claim.name, 0.0) + result.seconds / len(group)
+            self._spent(claim, result.seconds / len(group))
             self._keep(scope, claim, result)
 
     def _keep(self, scope: Scope, claim: Claim, result: SearchResult) -> None:
@@ -111,6 +135,13 @@ class Explorer:
             return
         if claim.name in self.runs and self.runs[claim.name].length < len(short):
             return
+        self._believe(scope, claim, short)
+
+    def _spent(self, claim: Claim, seconds: float) -> None:
+        self.seconds[claim.name] = self.seconds.get(claim.name, 0.0) + seconds
+
+    def _believe(self, scope: Scope, claim: Claim, short: Path) -> None:
+        """Keep a run of a part of the model once the whole model has taken it again."""
         path = restored(self.model, scope, short)
         replay(self.model, scope, path, claim)
         self.runs[claim.name] = Run(path_steps(self.model, scope, path), str(scope), scope.facts)

@@ -194,10 +194,7 @@ class Grounding:
 
     def _parameter_codes(self, row: Row, parameter: Ref | SetOf) -> Iterator[Code]:
         if isinstance(parameter, SetOf):
-            names = self.layout.scope.names(parameter.of)
-            yield from (
-                frozenset(i for i in range(len(names)) if bits >> i & 1) for bits in range(1 << len(names))
-            )
+            yield from self.layout.scope.subsets(parameter.of)
             return
         if parameter.name in row.on.optional:
             yield None

@@ -5,14 +5,16 @@ Nothing compiled or grounded is used here.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from mmsverify.concrete.evaluate import Moment, Valuation, holds, step, within_bounds
 from mmsverify.concrete.machine import speaks_of_steps
 from mmsverify.concrete.names import free_names
-from mmsverify.concrete.scope import Scope, cell_name, known_facts
+from mmsverify.concrete.scope import Binding, Scope, cell_name, known_facts
 from mmsverify.concrete.trace_path import Path
 from mmsverify.errors import MmsverifyError
 from mmsverify.model.model import ModelData
-from mmsverify.model.rows import Claim
+from mmsverify.model.rows import Claim, Row
 from mmsverify.model.show import shown
 
 
@@ -53,13 +55,19 @@ def _check_step(model: ModelData, scope: Scope, path: Path, number: int) -> None
     before, taken = path[number - 1], path[number]
     if taken.row is None or not any(taken.row is row or taken.row == row for row in model.actions):
         raise NotAPathError("a step without a row of the model", place=f"step {number}")
-    if dict(taken.bindings) not in list(scope.bindings(taken.row)):
+    if not _can_have(scope, taken.row, taken.bindings):
         raise NotAPathError(f"{taken.row.id} cannot have these parameters", place=f"step {number}")
     after = step(taken.row, taken.bindings, before.state, scope)
     if after is None:
         raise NotAPathError(f"the guard of {taken.row.id} refuses", place=f"step {number}")
     if after != taken.state or not within_bounds(model, scope, after):
         raise NotAPathError(f"{taken.row.id} leads to another state", place=f"step {number}")
+
+
+def _can_have(scope: Scope, row: Row, bindings: Mapping[str, Binding]) -> bool:
+    """Whether these are values for exactly the row's parameters."""
+    values = {p.name: scope.parameter_values(row, p) for p in row.parameters}
+    return values.keys() == bindings.keys() and all(bindings[name] in values[name] for name in values)
 
 
 def _shows(scope: Scope, path: Path, claim: Claim) -> bool:

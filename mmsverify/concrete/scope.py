@@ -36,13 +36,15 @@ class Scope:
     A fact may give a member of an enumeration or the word that the member prints. ``int_bounds`` (both
     inclusive) stand where a sort states no bound of its own: a step to a value outside is cut, and the
     reader says so. ``tried`` names, for an enumeration, the members that a parameter takes; all where it does
-    not say.
+    not say. ``largest_set`` bounds the sets that a parameter takes; such a scope has fewer steps, so that it
+    serves to find a run and never to exclude one.
     """
 
     elements: Mapping[str, tuple[str, ...]]
     facts: Mapping[CellKey, Value] = field(default_factory=dict)
     int_bounds: tuple[int, int] = (0, 3)
     tried: Mapping[str, tuple[Enumeration, ...]] = field(default_factory=dict)
+    largest_set: int | None = None
 
     def names(self, sort: ElementSort) -> tuple[str, ...]:
         """The names of the elements of a sort; :class:`UsageError` if the scope says nothing of the sort."""
@@ -82,12 +84,16 @@ class Scope:
         """What one parameter of a row may be."""
         if isinstance(parameter, SetOf):
             names = self.names(parameter.of)
-            return tuple(
-                frozenset(name for i, name in enumerate(names) if bits >> i & 1)
-                for bits in range(1 << len(names))
-            )
+            return tuple(frozenset(names[i] for i in members) for members in self.subsets(parameter.of))
         absent: tuple[Binding, ...] = (None,) if parameter.name in row.on.optional else ()
         return absent + self.tried.get(parameter.of.name, self.values(parameter.of))
+
+    def subsets(self, sort: ElementSort) -> Iterator[frozenset[int]]:
+        """The sets of elements that a parameter takes, in binary order, as the numbers of their members."""
+        size = len(self.names(sort))
+        for bits in range(1 << size):
+            if self.largest_set is None or bits.bit_count() <= self.largest_set:
+                yield frozenset(i for i in range(size) if bits >> i & 1)
 
     def __str__(self) -> str:
         return ", ".join(f"{sort}={len(names)}" for sort, names in self.elements.items())

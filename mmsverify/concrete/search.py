@@ -61,15 +61,17 @@ def search(
     same.
     """
     machine = machine or Machine(model, scope)
-    run = _Search(
+    run = Exploration(
         machine, Symmetry(machine.layout) if symmetry else None, model.claims if claims is None else claims
     )
-    run.limits = _Limits(max_depth, max_states, max_seconds)
+    run.limits = Limits(max_depth, max_states, max_seconds)
     return run.result(run.explore())
 
 
 @dataclass(slots=True)
-class _Limits:
+class Limits:
+    """Where a search ends: steps, states, seconds; none where it says nothing."""
+
     depth: int | None = None
     states: int | None = None
     seconds: float | None = None
@@ -90,13 +92,13 @@ class _Limits:
         return ""
 
 
-class _Search:
+class Exploration:
     """One run: the states seen in order of discovery, each with its predecessor."""
 
     def __init__(self, machine: Machine, symmetry: Symmetry | None, claims: Sequence[Claim]) -> None:
         self.machine = machine
         self.symmetry = symmetry
-        self.limits = _Limits()
+        self.limits = Limits()
         self.states: list[State] = []
         self.parents: list[int] = []
         self.seen: dict[State, int] = {}
