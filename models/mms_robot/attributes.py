@@ -106,8 +106,11 @@ class Attributes(Vocabulary):
         "R-5.3.2-3",
         for_some(p)((state[p] == State.RUNNING) & (mode[p] == Mode.STEP_LIMITED) & (steps[p] > 0)),
         "R-5.3.2-2",
+        provided=step_limited(),
     )
     cycles_end = Sometimes(
         "R-6.3.2.5-3", service_is("end_of_execution") & (mode[pi] == Mode.CYCLE_LIMITED) & (cycles[pi] > 0)
     )
-    steps_end = Sometimes("R-6.3.2.5-4", service_is("steps_exhausted") & (steps[pi] > 0))
+    steps_end = Sometimes(
+        "R-6.3.2.5-4", service_is("steps_exhausted") & (steps[pi] > 0), provided=step_limited()
+    )
