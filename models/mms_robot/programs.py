@@ -56,6 +56,11 @@ class Programs(Vocabulary):
         & ~for_some(a)(controller[c, a])
     )
     comes_along = (arm[c] | assigned.has(c)) & free_controlled
+    # What is selected then was left behind by VMD Reset; Select would deselect it first, in its steps f) and g).
+    deassign_first = [
+        controller[c, b].becomes(False).over(a, c, b).when(selected[a] & controls[a, c]),
+        controls[a, c].becomes(False).over(a, c).when(selected[a]),
+    ]  # fmt: skip
     assign_too = [
         controls[pi, c].becomes(True).over(c).when(comes_along),
         controller[c, a].becomes(True).over(c, a).when(comes_along & (a == pi)),
@@ -68,6 +73,8 @@ class Programs(Vocabulary):
         steps=[
             refuse("0", "B-CREATE", when=exists[pi], rule="create.exists", says="{pi} exists already"),
             *domains_fit,
+            refuse("R-5.3.1.3.3.4-2", when=also_assigns & some_controlling(), rule="create.second-task",
+                   says="the robot holds another task program, and can hold only one"),
             do("0", state[pi].becomes(State.IDLE), control[pi].becomes(kind), deletable[pi].becomes(True),
                reusable[pi].becomes(reuse), arm[pi].becomes(binds_arm), error_code[pi].becomes(0), untried[pi].becomes(True), *bind_domains),
             do("a", controls[pi, c].becomes(False).over(c).when(kind == Control.CONTROLLING),
@@ -76,6 +83,8 @@ class Programs(Vocabulary):
             do("b", controller[pi, a].becomes(False).over(a).when(kind == Control.CONTROLLED)),
             do("R-5.3.1.3.3.2-3", robot_state().becomes(RobotState.LOADED).when(kind == Control.CONTROLLING), cites=["R-6.3.5.2-1"]),
             accept("0", when=~also_assigns),
+            do("R-7.4.4.2-f1", *deassign_first, cites=["R-7.4.4.2-f2"]),
+            do("R-7.4.4.2-g", selected[a].becomes(False).over(a)),
             do("R-5.3.1.3.3.4-2", *assign_too, robot_state().becomes(RobotState.READY), cites=["R-6.3.4.4-1"]),
             accept("R-5.3.1.3.3.4-2"),
         ],

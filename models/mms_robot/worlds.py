@@ -3,7 +3,8 @@
 Claims speak of every profile, so a run in any of these refutes them. Without a profile of the user's own: a
 robot with its arm program, one domain that programs may be made of, one whose task program cannot be deleted,
 one where nothing is predefined; then a second client, a second controlled program, a third program of any
-kind, more about domains; one that holds a single task program and knows no steps.
+kind, a task program that has a list and is not selected, more about domains; one that holds a single task
+program and knows no steps.
 """
 
 from collections.abc import Iterator, Mapping
@@ -15,6 +16,7 @@ ARM = {"name": "R_ARM", "control": "CONTROLLED", "domains": ["R_ARM"], "deletabl
 TOOL = {"name": "R_TOOL", "control": "CONTROLLED", "domains": ["R_TOOL"], "deletable": False}
 CALIBRATION = {"name": "R_CAL", "control": "NORMAL", "domains": ["R_CAL"], "deletable": False}
 TASK = {"name": "TASK", "control": "CONTROLLING", "domains": ["TASK"], "deletable": False}
+LISTING = {**TASK, "controlled": ["R_ARM"]}
 SHARING = {"name": "OTHER", "control": "NORMAL", "domains": ["TASK"], "deletable": False}
 
 
@@ -39,6 +41,7 @@ def worlds(profile: Mapping[str, Any] | None) -> Iterator[dict[str, Any]]:
     yield {"sizes": {"PI": 2, "Client": 2}, "profile": {"predefined": [ARM], "associations": "multiple"}}
     yield {"sizes": {"PI": 3}, "profile": {"predefined": [ARM, TOOL, TASK]}}
     yield {"sizes": {"PI": 3}, "profile": {"predefined": [ARM]}}
+    yield {"sizes": {"PI": 3}, "profile": {"predefined": [ARM, LISTING]}}
     yield {"sizes": {"PI": 2, "Domain": 1}, "profile": {"predefined": [TASK, SHARING]}}
     yield {
         "sizes": {"PI": 1, "Domain": 1, "Client": 2},
