@@ -16,7 +16,8 @@ ARM = {"name": "R_ARM", "control": "CONTROLLED", "domains": ["R_ARM"], "deletabl
 TOOL = {"name": "R_TOOL", "control": "CONTROLLED", "domains": ["R_TOOL"], "deletable": False}
 CALIBRATION = {"name": "R_CAL", "control": "NORMAL", "domains": ["R_CAL"], "deletable": False}
 TASK = {"name": "TASK", "control": "CONTROLLING", "domains": ["TASK"], "deletable": False}
-LISTING = {**TASK, "controlled": ["R_ARM"]}
+HANDS = {"name": "HANDS", "control": "CONTROLLED", "domains": ["HANDS"], "deletable": True}
+LISTING = {**TASK, "controlled": ["HANDS"]}
 SHARING = {"name": "OTHER", "control": "NORMAL", "domains": ["TASK"], "deletable": False}
 
 
@@ -41,7 +42,7 @@ def worlds(profile: Mapping[str, Any] | None) -> Iterator[dict[str, Any]]:
     yield {"sizes": {"PI": 2, "Client": 2}, "profile": {"predefined": [ARM], "associations": "multiple"}}
     yield {"sizes": {"PI": 3}, "profile": {"predefined": [ARM, TOOL, TASK]}}
     yield {"sizes": {"PI": 3}, "profile": {"predefined": [ARM]}}
-    yield {"sizes": {"PI": 3}, "profile": {"predefined": [ARM, LISTING]}}
+    yield {"sizes": {"PI": 3}, "profile": {"predefined": [HANDS, LISTING]}}
     yield {"sizes": {"PI": 2, "Domain": 1}, "profile": {"predefined": [TASK, SHARING]}}
     yield {
         "sizes": {"PI": 1, "Domain": 1, "Client": 2},
