@@ -26,11 +26,21 @@ LARGEST_SET = 1
 
 @dataclass(frozen=True, slots=True)
 class Run:
-    """A run that breaks a claim, or that reaches what a ``Sometimes`` says, and the scope of it."""
+    """A run that breaks a claim or reaches what a ``Sometimes`` says: as printed, and as it is taken."""
 
     steps: tuple[PathStep, ...]
-    scope: str
-    facts: Mapping[CellKey, Value]
+    world: Scope
+    path: Path
+
+    @property
+    def scope(self) -> str:
+        """The scope as results print it."""
+        return str(self.world)
+
+    @property
+    def facts(self) -> Mapping[CellKey, Value]:
+        """What is fixed in the scope."""
+        return self.world.facts
 
     @property
     def length(self) -> int:
@@ -144,7 +154,7 @@ class Explorer:
         """Keep a run of a part of the model once the whole model has taken it again."""
         path = restored(self.model, scope, short)
         replay(self.model, scope, path, claim)
-        self.runs[claim.name] = Run(path_steps(self.model, scope, path), str(scope), scope.facts)
+        self.runs[claim.name] = Run(path_steps(self.model, scope, path), scope, path)
 
 
 def alike(model: ModelData, claims: Sequence[Claim]) -> Iterator[list[Claim]]:

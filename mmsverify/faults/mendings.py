@@ -1,13 +1,16 @@
-"""How another variant mends a fault: the declarations that differ, and what is proved there."""
+"""How another variant mends a fault: the steps that keep its runs from the breach; what is proved there."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
 from mmsverify.checking.proofs import Proofs
+from mmsverify.checking.runs import Run
+from mmsverify.faults.partings import Parting, partings
+from mmsverify.model import expr as ex
 from mmsverify.model.model import ModelData
-from mmsverify.model.rows import Claim
-from mmsverify.results import Breach, Mending
+from mmsverify.model.rows import Claim, Clause
+from mmsverify.results import Mending
 
 
 class Mended:
@@ -20,12 +23,30 @@ class Mended:
         proofs.prove([claim for claim in model.claims if claim.kind != "sometimes"])
         self._proved = proofs.proved
 
-    def mendings(self, claim: Claim, breaches: Sequence[Breach]) -> Iterator[Mending]:
-        """The repairs of the procedures that break the claim, and of the claim where it differs."""
-        for name in dict.fromkeys([claim.name, *(breach.procedure for breach in breaches)]):
-            repair = self.model.repairs.get(name)
-            if repair is not None:
-                yield Mending(name, ", ".join(repair.mends.readings), repair.mends.ids, repair.because)
+    def mendings(self, claim: Claim, runs: Sequence[Run]) -> Iterator[Mending]:
+        """The repair of the claim, if it is stated otherwise; then what keeps each run from breaking it."""
+        told = (
+            [Parting(claim.name, "", Clause(()), "is stated otherwise")]
+            if claim.name in self.model.repairs
+            else []
+        )
+        watched = ex.variables_of(claim.formula)
+        for run in runs:
+            told += partings(self.model, run.world, run.path, watched)
+        for parting in {(p.declared, p.step): p for p in reversed(told)}.values():
+            yield self._mending(parting)
+
+    def _mending(self, parting: Parting) -> Mending:
+        """The reading of the step where it has one of its own, else that of the declaration."""
+        repair = self.model.repairs.get(parting.declared)
+        readings = [r for r in parting.clause.readings if r.startswith("RP-")]
+        clauses, because = parting.clause.ids, parting.says
+        if repair is not None:
+            readings = readings or list(repair.mends.readings)
+            clauses = clauses or repair.mends.ids
+            because = because if parting.step else f"{because}: {repair.because}"
+        name = f"{parting.declared}/{parting.step}" if parting.step else parting.declared
+        return Mending(name, ", ".join(readings), clauses, because)
 
     def outcome(self, claim: Claim) -> str:
         """What is known of the claim in this variant."""

@@ -71,17 +71,18 @@ class _Survey:
             if not found:
                 continue
             left = {pair.procedure for pair in mine} - {pair.procedure for pair in found}
-            yield self._fault(claim, [_breach(pair, runs[pair.question.name]) for pair in found], left)
+            yield self._fault(claim, [(pair, runs[pair.question.name]) for pair in found], left)
 
-    def _fault(self, claim: Claim, breaches: Sequence[Breach], left: Iterable[str]) -> Fault:
+    def _fault(self, claim: Claim, found: Sequence[tuple[Pair, Run]], left: Iterable[str]) -> Fault:
+        found = sorted(found, key=lambda each: (each[1].length, each[0].procedure, each[0].change))
         return Fault(
             name=claim.title,
             statement=statement(claim),
             clauses=claim.clause.ids + claim.clause.readings,
             consequence=self.model.options.get("consequences", {}).get(claim.name, ""),
-            breaches=tuple(sorted(breaches, key=lambda b: (len(b.steps), b.procedure, b.change))),
+            breaches=tuple(_breach(pair, run) for pair, run in found),
             open=tuple(sorted(left)),
-            mendings=tuple(m for other in self.mended for m in other.mendings(claim, breaches)),
+            mendings=tuple(m for o in self.mended for m in o.mendings(claim, [run for _, run in found])),
             mended="; ".join(other.outcome(claim) for other in self.mended),
         )
 

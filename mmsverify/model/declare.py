@@ -76,8 +76,8 @@ def optional(name: str, of: type[Enumeration] | Sort) -> Maybe:
 class Assign:
     """``variable[args] := value`` for all ``bound`` elements with ``where``; all read the state before.
 
-    A list of these is applied in order: a later one wins where two touch one cell. ``clauses`` are those of
-    the step that makes it.
+    A list of these is applied in order: a later one wins where two touch one cell. ``clauses`` and
+    ``readings`` are those of the step that makes it.
     """
 
     variable: str
@@ -87,6 +87,7 @@ class Assign:
     where: Expr = ex.TRUE
     place: str = field(default="", compare=False)
     clauses: tuple[str, ...] = field(default=(), compare=False)
+    readings: tuple[str, ...] = field(default=(), compare=False)
 
     def when(self, condition: Any) -> Assign:
         """The same update where ``condition`` holds; it may speak of the elements that ``over`` has bound."""

@@ -187,12 +187,8 @@ def assemble(source: type[Model]) -> ModelData:
         signatures=signatures,
         definitions=definitions,
         rows=rows,
-        initial=tuple(
-            _expanded(d.conjunct, definitions) for d in declared.values() if isinstance(d, Initially)
-        ),
-        assumptions=tuple(
-            _expanded(d.conjunct, definitions) for d in declared.values() if isinstance(d, Assume)
-        ),
+        initial=tuple(_named(d, definitions) for d in declared.values() if isinstance(d, Initially)),
+        assumptions=tuple(_named(d, definitions) for d in declared.values() if isinstance(d, Assume)),
         claims=tuple(_claims(declared, definitions)),
         gaps=tuple(d.gap() for d in declared.values() if isinstance(d, Unspecified)),
         repairs=dict(_repairs(source)),
@@ -247,6 +243,11 @@ def expand(expr: Expr, definitions: Definitions) -> Expr:
         return primed(given) if cell.next else given
 
     return map_cells(expr, change)
+
+
+def _named(source: Initially | Assume, definitions: Definitions) -> Conjunct:
+    """The condition, with the name of its declaration for a rule."""
+    return replace(_expanded(source.conjunct, definitions), rule=source.name)
 
 
 def _expanded(conjunct: Conjunct, definitions: Definitions) -> Conjunct:

@@ -70,7 +70,7 @@ class Transition(RowSource):
         check_distinct(then, self.place)
         self.clause = Clause.of(*clauses)
         self.on, self.answer, self.never_after = on, answer, tuple(never_after)
-        self.then = tuple(replace(assign, clauses=self.clause.ids) for assign in then)
+        self.then = tuple(_cited(assign, self.clause) for assign in then)
         self.guard = tuple(c if isinstance(c, Conjunct) else Conjunct(formula(c), self.clause) for c in when)
         self.observation_only = observation_only
         self.repairs = repairs
@@ -196,7 +196,7 @@ class _Run:
             for name, ref in ex.refs_of(assign.where).items():
                 if name.startswith("chooses_") and ref not in self.choices:
                     self.choices += (ref,)
-        self.made += self._over_start([replace(assign, clauses=clause.ids) for assign in assigns])
+        self.made += self._over_start([_cited(assign, clause) for assign in assigns])
 
     def _accept(self, step: Accept) -> Iterator[Row]:
         condition = self.now(step.condition)
@@ -234,6 +234,10 @@ class _Run:
             replace(a, where=after(a.where, first), value=after(a.value, first))
             for a in (_over(assign, step.element, inside) for assign in step.undo)
         )
+
+
+def _cited(assign: Assign, clause: Clause) -> Assign:
+    return replace(assign, clauses=clause.ids, readings=clause.readings)
 
 
 def _over(assign: Assign, element: Ref, where: Expr) -> Assign:

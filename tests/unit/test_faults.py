@@ -50,7 +50,8 @@ class AsWritten(Door, name="door", variant="as-written", standard="DOOR 1", view
 
 class Repaired(Door, name="door", variant="repaired"):
     open_ = Procedure("D-10", on=response("open", a), steps=[
-        refuse("R-1", when=for_some(b)(opened[b])),
+        refuse("R-2", "RP-2", when=light() == Light.GREEN, says="the light is green"),
+        refuse("R-1", when=for_some(b)(opened[b]), says="a door is open before {a}"),
         do("a", opened[a].becomes(True)),
         accept("c"),
     ], repairs=repaired("RP-1", "D-10-a", because="the doors of a lock exclude each other"))
@@ -88,10 +89,19 @@ def test_a_property_of_one_attribute_is_told_by_its_changes(faults: dict[str, Fa
     assert [b.change for b in faults["red-stays"].breaches] == ["RED -> GREEN"]
 
 
-def test_a_fault_names_what_mends_it_and_what_is_proved_there(faults: dict[str, Fault]) -> None:
+def test_a_fault_names_the_step_that_mends_it_and_no_other_and_what_is_proved_there(
+    faults: dict[str, Fault],
+) -> None:
     (mending,) = faults["one-open"].mendings
-    assert (mending.declaration, mending.reading, mending.clauses) == ("open_", "RP-1", ("D-10-a",))
+    assert (mending.declaration, mending.reading, mending.clauses) == ("open_/R-1", "RP-1", ("R-1",))
+    assert mending.because == "refuses: a door is open before D2"
     assert faults["one-open"].mended == "proved in repaired, for any number of elements"
+
+
+def test_an_effect_that_is_dropped_is_mended_by_the_whole_procedure(faults: dict[str, Fault]) -> None:
+    (mending,) = faults["red-stays"].mendings
+    assert (mending.declaration, mending.reading, mending.clauses) == ("open_", "RP-1", ("D-10-a",))
+    assert mending.because == "leads to light = RED: the doors of a lock exclude each other"
 
 
 def test_a_fault_says_what_it_means_for_a_plant(faults: dict[str, Fault]) -> None:
@@ -119,7 +129,7 @@ def test_the_document_tells_clause_consequence_run_and_repair(path: Path, tmp_pa
         "**For a plant:** Both doors stand open: the air escapes.",
         "The shortest run, by `open_` (2 steps; nothing predefined):",
         "opened[D2]: false -> true",
-        "- `open_` (RP-1; D-10-a): the doors of a lock exclude each other",
+        "- `open_/R-1` (RP-1; R-1): refuses: a door is open before D2",
         "## What the text says in vain",
     ):
         assert part in text
