@@ -79,7 +79,9 @@ class Attributes(Vocabulary):
     steps_run = Step("R-6.3.2.7-1", for_all(p)((steps[p].next != steps[p]) >> (setting | (runs[p] & (steps[p].next < steps[p])))),
                      says="the remaining steps become fewer, and only while the program runs")  # fmt: skip
     # What happens to a task program when nobody does anything to it: told by what becomes of it.
-    by_somebody = service_is("stop", "reset", "vMDStop", "vMDReset", "emergency_stop", "operator_recovers")
+    by_somebody = service_is(
+        "start", "stop", "resume", "reset", "vMDStop", "vMDReset", "emergency_stop", "operator_recovers"
+    )
     task_by_itself = (control[p] == Control.CONTROLLING) & (state[p] == State.RUNNING) & ~by_somebody
     nothing_counts_freely = Step(
         "R-6.3.2.5-2", for_all(p)(((mode[p] == Mode.FREE_RUN) & ~setting) >> ((cycles[p].next == cycles[p]) & (steps[p].next == steps[p]))),

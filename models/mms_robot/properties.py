@@ -121,13 +121,15 @@ class Properties(Vocabulary):
                             says="a controlled program invocation is on the list of at most one controlling one")  # fmt: skip
     one_reference = Always("R-6.3.2.8-1", for_all(a, b, c)((controller[c, a] & controller[c, b]) >> (a == b)),
                            says="a controlled program invocation refers to at most one controlling one")  # fmt: skip
-    lists_follow_references = Always("R-6.3.2.8-2", for_all(a, c)((controller[c, a] & exists[c]) >> controls[a, c]),
+    # The reference is an attribute of CONTROLLED program invocations only (6.3.2.8): what one of another kind keeps of it is none.
+    refers = controller[c, a] & exists[c] & (control[c] == Control.CONTROLLED)
+    lists_follow_references = Always("R-6.3.2.8-2", for_all(a, c)(refers >> controls[a, c]),
                                      says="the controlling program invocation that is referred to has the controlled one on its list")  # fmt: skip
     references_follow_lists = Always("R-6.3.2.3-2", for_all(a, c)((controls[a, c] & exists[a] & (control[a] == Control.CONTROLLING)) >> controller[c, a]),
                                      says="each program invocation on a list refers to the list's owner")  # fmt: skip
     listed_are_controlled = Always("R-6.3.2.3-2", for_all(a, c)((controls[a, c] & exists[a]) >> (exists[c] & (control[c] == Control.CONTROLLED))),
                                    says="each program invocation on a list exists and is CONTROLLED")  # fmt: skip
-    references_are_controlling = Always("R-6.3.2.8-2", for_all(a, c)((controller[c, a] & exists[c]) >> (exists[a] & (control[a] == Control.CONTROLLING))),
+    references_are_controlling = Always("R-6.3.2.8-2", for_all(a, c)(refers >> (exists[a] & (control[a] == Control.CONTROLLING))),
                                         says="the program invocation that is referred to exists and is CONTROLLING")  # fmt: skip
     only_selected_controls = Always("R-7.3.3.1-4", for_all(a, c)((controls[a, c] & exists[a]) >> selected[a]), "R-6.1.1-2",
                                     says="nothing is controlled unless its controller is selected")  # fmt: skip
@@ -148,14 +150,14 @@ class Properties(Vocabulary):
     idle_has_none_selected = Always("R-6.3.4.2-2", (robot_state() == RobotState.IDLE) >> ~some_selected())
     idle_arm_uncontrolled = Always(
         "R-6.3.4.2-3",
-        for_all(c, a)(((robot_state() == RobotState.IDLE) & arm[c] & exists[c]) >> ~controller[c, a]),
+        for_all(c, a)(((robot_state() == RobotState.IDLE) & arm[c]) >> ~refers),
     )
     loaded_has_controlling = Always(
         "R-6.3.4.3-1", (robot_state() == RobotState.LOADED) >> (some_controlling() & ~some_selected())
     )
     loaded_arm_uncontrolled = Always(
         "R-6.3.4.3-1",
-        for_all(c, a)(((robot_state() == RobotState.LOADED) & arm[c] & exists[c]) >> ~controller[c, a]),
+        for_all(c, a)(((robot_state() == RobotState.LOADED) & arm[c]) >> ~refers),
     )
     ready_has_idle_selected = Always(
         "R-6.3.4.4-1",
