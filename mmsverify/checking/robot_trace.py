@@ -1,8 +1,9 @@
 """A run of the robot model as the conversation that would show it: who sends which MMS PDU, in order.
 
 Steps that are messages become messages; what happens inside the robot shows only where its status changes,
-which it tells by UnsolicitedStatus. A Status, the attributes of every program invocation and the variables of
-every physical resource stand at both ends.
+which it tells by UnsolicitedStatus. A Status, the attributes of every program invocation and domain, the
+variables of every physical resource and how many own R_CTRL stand at both ends, and once more before the last
+step: what that step changes back would be seen by nobody otherwise.
 """
 
 from __future__ import annotations
@@ -90,13 +91,17 @@ class _Speaker:
         self.calibrated = [d for d in messages.devices(first) if first[f"needs_calibration[{d}]"]]
 
     def speak(self) -> Iterator[Sent]:
+        last = len(self.steps) - 1
         yield from self._show(self.steps[0])
-        for number in range(1, len(self.steps)):
+        for number in range(1, last + 1):
+            if number == last > 1:
+                yield from self._show(self.steps[number - 1])
             yield from self._step(number)
-        yield from self._show(self.steps[-1])
+        if last:
+            yield from self._show(self.steps[last])
 
     def _show(self, step: PathStep) -> Iterator[Sent]:
-        """Status, the attributes of program invocations and domains, the variables of physical resources."""
+        """All that the robot tells when it is asked, each answered with what the step leads to."""
         yield Sent(OBSERVER, "client", messages.request(self._id(), "status", {}))
         yield Sent(OBSERVER, "server", messages.answer(self.last_id, "status", {}, PLUS, step.state))
         for name in messages.programs(step.state):
@@ -113,6 +118,9 @@ class _Speaker:
         asked = messages.request(self._id(), "read", {"variables": list(values)})
         yield Sent(OBSERVER, "client", asked)
         yield Sent(OBSERVER, "server", messages.values(self.last_id, list(values.values())))
+        yield Sent(OBSERVER, "client", messages.request(self._id(), "reportSemaphoreStatus", {}))
+        told = messages.answer(self.last_id, "reportSemaphoreStatus", {}, PLUS, step.state)
+        yield Sent(OBSERVER, "server", told)
 
     def _id(self) -> int:
         self.last_id += 1
