@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from mmsverify.commands.options import VARIANT_HELP, Output, Quiet
-from mmsverify.commands.output import emit, progress, require_writable
+from mmsverify.commands.output import emit, progress, remark, require_writable
 from mmsverify.report import FINDINGS_FORMATS, render_findings, require_format
 
 
@@ -29,6 +29,17 @@ def findings(
     from mmsverify.faults import find_faults
 
     with progress(quiet=quiet) as report:
-        survey = find_faults(model, variant=variant, progress=report)
+        survey = find_faults(model, variant=variant, progress=report or _Begun(quiet))
     emit(render_findings(survey, format), output)
     return 1 if survey.faults else 0
+
+
+class _Begun:
+    """Says once that the work has begun and may take long, where no line can be kept up to date."""
+
+    def __init__(self, quiet: bool) -> None:
+        self.quiet = quiet
+
+    def __call__(self, what: str) -> None:
+        remark(f"{what}, then property by property: a large model takes minutes", quiet=self.quiet)
+        self.quiet = True

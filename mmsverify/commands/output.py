@@ -71,7 +71,7 @@ def _print(text: str) -> None:
 
 def remark(text: str, *, quiet: bool) -> None:
     """One line on stderr for whoever watches."""
-    if not quiet:
+    if not quiet and sys.stderr is not None:  # print would take stdout for a stderr that is closed
         print(printable(text), file=sys.stderr)
 
 

@@ -43,6 +43,9 @@ CONSEQUENCES = {
     "refusal_keeps_states": "A client reads result(-) to its Start or Resume, yet programs that it controls have been started and stopped again: "
     "the arm may have moved.",
     "intervention_left_by_operator": "A service from afar ends MANUAL-INTERVENTION-REQUIRED while the operator is still inside the fence.",
+    "refused_select_selects_nothing": "A client reads result(-) to its Select, and the task program that was assigned before is gone: the next Start is refused.",
+    "released_control_is_free": "A client that has gone away keeps R_CTRL: whoever comes next can stop nothing.",
+    "steps_supported": "A client sets a program to run step by step, and the robot does not: what moves after the next Start is not what was asked for.",
     "association_changes_nothing": "Plugging or pulling a network cable changes what the robot does.",
     "calibrating_until_finished": "A calibration program that was killed or reset leaves its arm CALIBRATING for ever: a client waits for an end that never comes.",
     "calibration_does_not_load": "The robot says that it is loaded when the calibration program is all that is left.",

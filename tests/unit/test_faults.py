@@ -135,6 +135,17 @@ def test_the_document_tells_clause_consequence_run_and_repair(path: Path, tmp_pa
         assert part in text
 
 
+def test_the_survey_says_once_that_it_may_take_long_unless_it_shall_be_quiet(
+    path: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["findings", str(path), "-o", str(tmp_path / "out.md")]) == 1
+    assert capsys.readouterr().err == (
+        "door: proving what holds, then property by property: a large model takes minutes\n"
+    )
+    assert main(["findings", str(path), "--quiet", "-o", str(tmp_path / "out.md")]) == 1
+    assert capsys.readouterr().err == ""
+
+
 def test_the_faults_as_json_keep_every_step(path: Path, tmp_path: Path) -> None:
     assert main(["findings", str(path), "--format", "json", "-o", str(tmp_path / "out.json")]) == 1
     found = json.loads((tmp_path / "out.json").read_text(encoding="utf-8"))
