@@ -52,7 +52,7 @@ def _counts(entries: Sequence[Entry]) -> dict[str, int]:
         "statements": len(entries),
         "checkable": sum(entry.statement.checkable for entry in entries),
         "encoded": sum(bool(entry.encoded) for entry in entries),
-        "reasoned": sum(bool(entry.statement.reason) for entry in entries),
+        "reasoned": sum(bool(entry.statement.reason) and not entry.encoded for entry in entries),
         "uncovered": sum(entry.uncovered for entry in entries),
         "exercised": sum(bool(entry.exercised) for entry in entries),
     }

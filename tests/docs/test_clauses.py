@@ -74,6 +74,12 @@ def test_a_statement_with_a_reason_is_encoded_in_part_at_most() -> None:
     assert [s.id for s in both if not s.because.startswith(IN_PART)] == []
 
 
+@pytest.mark.parametrize("model", registers())
+def test_every_statement_is_counted_once(model: str) -> None:
+    counts = registers()[model].counts
+    assert counts["encoded"] + counts["reasoned"] + counts["uncovered"] == counts["statements"]
+
+
 def test_a_repeated_statement_names_one_that_is_encoded() -> None:
     encoded = {entry.statement.id for entry in entries() if entry.encoded}
     repeated = [entry.statement for entry in entries() if entry.statement.reason == "repeated"]
