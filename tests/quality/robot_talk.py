@@ -8,6 +8,7 @@ and what remains is conforming by its making.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -43,11 +44,23 @@ ASSOCIATING = {"initiate": "open", "release": "close"}
 """Rows that answer to no confirmed request, and the act that performs each."""
 
 
+@dataclass(frozen=True, slots=True)
+class Taken:
+    """A step of the robot: by which row, in which act (by its number), from which state to which."""
+
+    act: int
+    row: Row
+    bindings: Mapping[str, Any]
+    before: Valuation
+    after: Valuation
+    scope: Scope
+
+
 class Talk:
     """A conversation with one robot, from power-on."""
 
     def __init__(self, model: ModelData, scope: Scope, start: Valuation) -> None:
-        self.model, self.scope = model, scope
+        self.scope = scope
         self.state: Valuation = start
         self.messages: list[Message] = []
         self.pending: dict[str, Pending] = {}
@@ -59,6 +72,13 @@ class Talk:
         self._start = start
         bound = (key for key, held in start.items() if key[0] == "predefined_arm" and held)
         self.arms = ARMS if any(start["predefined", key[1]] for key in bound) else frozenset()
+        self._shown: tuple[Valuation, dict[str, Any]] | None = None
+        self.taken: list[Taken] = []
+        self.become(model)
+
+    def become(self, model: ModelData) -> None:
+        """From now on the robot lives by these rows."""
+        self.model = model
         self._rows: dict[tuple[str, str], list[Row]] = {}
         for row in model.rows:
             self._rows.setdefault((row.on.phase, row.on.service), []).append(row)
@@ -92,6 +112,7 @@ class Talk:
         occurring = self.events.occurring(self.state, after)
         for name in set(occurring).intersection(self.events.due()):
             self._told(name)
+        self.taken.append(Taken(len(self.done), row, bindings, self.state, after, self.scope))
         self.state = after
         self.events.act(occurring, len(self.messages), self._acted)
         return True
@@ -342,7 +363,9 @@ class Talk:
 
     def shown(self) -> dict[str, Any]:
         """The state in the words of results."""
-        return readable_state(self.model, self.scope, self.state)
+        if self._shown is None or self._shown[0] is not self.state:
+            self._shown = self.state, readable_state(self.model, self.scope, self.state)
+        return self._shown[1]
 
     # The recording.
 

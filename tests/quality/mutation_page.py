@@ -1,0 +1,77 @@
+"""The page about the mutation score, from the fates of all mutants."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from mutation_score import AUDIT, CHECK, CLAIM, EQUAL, OPEN, Fate
+
+
+def share(part: int, whole: int) -> str:
+    """A share in percent, rounded down: a score is never told better than it is."""
+    return f"{1000 * part // whole / 10 if whole else 0:.1f} %"
+
+
+def count(fates: Sequence[Fate], *kinds: str) -> int:
+    return sum(fate.fate in kinds for fate in fates)
+
+
+def row(name: str, fates: Sequence[Fate]) -> str:
+    """A line of the table."""
+    made, check, equal, audit = len(fates), count(fates, CHECK), count(fates, EQUAL), count(fates, AUDIT)
+    others = made - equal
+    killed = check + audit
+    cells = [made, equal, check, audit, others - killed, share(check, others), share(killed, others)]
+    return f"| {name} | " + " | ".join(map(str, cells)) + " |"
+
+
+def page(fates: Sequence[Fate]) -> str:
+    """The whole page."""
+    kinds = dict.fromkeys((fate.what, fate.kind) for fate in fates)
+    rows = [fate for fate in fates if fate.what != CLAIM]
+    table = [
+        "| mutants of | made | equal | by `check` | then by `audit` | alive | `check` alone | killed |",
+        "|---|---|---|---|---|---|---|---|",
+        *(row(f"{w}: {k}", [f for f in fates if (f.what, f.kind) == (w, k)]) for w, k in kinds),
+        row("all rules", rows),
+        row("all properties", [fate for fate in fates if fate.what == CLAIM]),
+        row("all", fates),
+    ]
+    alive = [f"- {f.what}, {f.kind}: `{f.place}`{reason(f)}" for f in fates if f.fate == OPEN]
+    equal = [f"- {f.what}, {f.kind}: `{f.place}`" for f in rows if f.fate == EQUAL]
+    return HEAD + "\n".join(table) + ALIVE + "\n".join(alive) + EQUALS + "\n".join(equal) + "\n"
+
+
+def reason(fate: Fate) -> str:
+    """Why it lives, as far as it is known."""
+    known = REASONS.get((fate.kind, fate.place)) or REASONS.get(("", fate.place)) or fate.by
+    return f": {known}" if known else ""
+
+
+REASONS: dict[tuple[str, str], str] = {}
+"""Why mutants live, by kind (or any) and place."""
+
+HEAD = """\
+# Mutation score of the robot model
+
+Made by `python bench/mutants.py --write`. Each rule of the model (variant `repaired`) is written otherwise,
+one at a time: a step is left out, a condition negated, an effect lost, a value changed to another. A change
+of a procedure's step changes every row that the step has part in. Then:
+
+- `check` kills a mutant if Z3 finds, under the proved invariants, a step of a changed row that breaks a
+  claim. Claims that something can happen are not asked: a mutant that only makes the robot do less may break
+  one of them, but is left to `audit`.
+- A mutant is *equal* if Z3 proves, under the proved invariants, that its rows do what the real ones do.
+- `audit` kills a mutant if some recording gives other findings. The recordings are those written by hand and
+  those of the robot written from the text alone, with the faults of its catalogue; then conversations that
+  lead to a moment at which the mutant acts otherwise: its robot is accused by the real model, or a right
+  robot by the mutant.
+- A claim is negated, or has a condition less, so that it says more than the text; what is to happen sometimes
+  is claimed never to happen. `check` kills such a mutant if it is not proved any more; if it is proved too,
+  it is equal to the real claim in every reachable state.
+
+Where Z3 gives no answer in 5 s, a mutant counts neither as killed nor as equal.
+
+"""
+ALIVE = "\n\n## Alive\n\n"
+EQUALS = "\n\n## Equal rules\n\nNo reachable state tells them apart, so no test can.\n\n"

@@ -1,0 +1,196 @@
+"""What Z3 says of mutants: whether a claim is lost, and whether anything has changed at all.
+
+Nothing is proved anew that a change cannot touch: the other rows keep every claim, and a changed row is asked
+only for those that it may break. What is asked is asked under the invariants that are proved of the real
+model. Where Z3 does not know, nothing is said: such a mutant counts neither as killed nor as equal.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+
+import z3
+from robot_mutation import Mutant
+
+from mmsverify.model import Claim, ModelData, Row
+from mmsverify.model import expr as ex
+from mmsverify.model.declare import Assign
+from mmsverify.model.expr import Expr
+from mmsverify.model.rewrite import bind
+from mmsverify.model.rows import after
+from mmsverify.model.sorts import BOOL
+from mmsverify.symbolic.induction import may_break
+from mmsverify.symbolic.translate import Translator, obligation
+
+NEGATED, STRICTER = "claim negated", "condition of a claim dropped"
+
+
+class Judge:
+    """Asks of mutants of one model, given all that is proved of it."""
+
+    def __init__(self, model: ModelData, *, seconds: float = 5.0) -> None:
+        self.model = model
+        self.claims = [claim for claim in model.claims if claim.kind != "sometimes"]
+        self.translator = Translator(model)
+        rigid = [*(c.condition for c in model.assumptions)]
+        self._solver = self._of([*rigid, *(c.formula for c in model.always)], seconds)
+        self._start = self._of([*rigid, *(c.condition for c in model.initial)], seconds)
+
+    def _of(self, given: Iterable[Expr], seconds: float) -> z3.Solver:
+        solver = z3.Solver()
+        solver.set("timeout", int(seconds * 1000))
+        solver.add(*map(self.translator.formula, given), *self.translator.bounds())
+        return solver
+
+    # Rows.
+
+    def lost(self, mutant: Mutant) -> str:
+        """A claim that a changed row may break; empty if none."""
+        changed = (row for row in mutant.rows.values() if row is not None)
+        return next((name for row in changed if (name := self._lost(row))), "")
+
+    def _lost(self, row: Row) -> str:
+        goals = {claim: obligation(claim, row) for claim in self.claims if may_break(row, claim)}
+        goals = {claim: goal for claim, goal in goals.items() if goal != ex.TRUE}
+        whole = ex.negation(ex.conjunction(*goals.values()))
+        if not goals or self._ask(self._solver, row.guard_formula, whole) == z3.unsat:
+            return ""
+        broken = (
+            claim.name
+            for claim, goal in goals.items()
+            if self._ask(self._solver, row.guard_formula, ex.negation(goal)) == z3.sat
+        )
+        return next(broken, "")
+
+    def alike(self, mutant: Mutant) -> bool:
+        """Whether the changed rows are proved to do what the real ones do, wherever the invariants hold.
+
+        Rows with one answer and one effect stand for each other: which step refuses is not to be seen.
+        """
+        if mutant.occurrences:
+            return False
+        real = _outcomes(self.model.rows[n] for n in mutant.rows)
+        changed = _outcomes(row for row in mutant.rows.values() if row is not None)
+        if all(self._same(real.get(key), changed.get(key)) for key in {*real, *changed}):
+            return True
+        return all(self._alike(self.model.rows[n], row) for n, row in mutant.rows.items())
+
+    def _same(self, real: Expr | None, changed: Expr | None) -> bool:
+        mine, yours = real or ex.FALSE, changed or ex.FALSE
+        return mine == yours or self._never(ex.negation(ex.equal(mine, yours)))
+
+    def _alike(self, real: Row, changed: Row | None) -> bool:
+        if changed is None:
+            return self._never(real.guard_formula)
+        mine, yours = real.guard_formula, changed.guard_formula
+        if mine != yours and not self._never(ex.negation(ex.equal(mine, yours))):
+            return False
+        return real.assigns == changed.assigns or self._never(
+            mine, ex.negation(same_effect(self.model, real, changed))
+        )
+
+    def _never(self, *conditions: Expr) -> bool:
+        return self._ask(self._solver, *conditions) == z3.unsat
+
+    def _ask(self, solver: z3.Solver, *conditions: Expr) -> z3.CheckSatResult:
+        solver.push()
+        solver.add(*map(self.translator.formula, conditions))
+        answer = solver.check()
+        solver.pop()
+        return answer
+
+    # Claims.
+
+    def refuted(self, claim: Claim) -> bool | None:
+        """Whether the changed claim is not proved any more: ``None`` if Z3 does not know.
+
+        It is asked beside the real invariants, of the start and of every row.
+        """
+        answers = [*self._starts(claim)]
+        if z3.sat in answers:
+            return True
+        for row in self.model.actions:
+            if not _understood(claim, row):
+                continue
+            goal = obligation(claim, row)
+            if goal != ex.TRUE and (claim.kind == "step" or may_break(row, claim)):
+                conditions = [] if claim.kind == "step" else [claim.formula]
+                answers.append(self._ask(self._solver, *conditions, row.guard_formula, ex.negation(goal)))
+                if answers[-1] == z3.sat:
+                    return True
+        return None if z3.unknown in answers else False
+
+    def _starts(self, claim: Claim) -> Iterator[z3.CheckSatResult]:
+        if claim.kind == "always":
+            yield self._ask(self._start, ex.negation(claim.formula))
+
+
+def _understood(claim: Claim, row: Row) -> bool:
+    """Whether the row has the things that the claim names: where they are missing, it says nothing."""
+    has = {p.name: p.of for p in row.parameters}
+    meant = (ref for ref in ex.refs_of(claim.formula).values() if not ref.name.endswith(ex.BOUND))
+    return all(has.get(ref.name) == ref.of or (ref.of == BOOL and ref.name not in has) for ref in meant)
+
+
+def _outcomes(rows: Iterable[Row]) -> dict[tuple[str, frozenset[Assign]], Expr]:
+    """When each outcome (answer and effect) is possible."""
+    found: dict[tuple[str, frozenset[Assign]], Expr] = {}
+    for row in rows:
+        key = row.answer, frozenset(row.assigns)
+        found[key] = ex.disjunction(found.get(key, ex.FALSE), row.guard_formula)
+    return found
+
+
+def same_effect(model: ModelData, left: Row, right: Row) -> Expr:
+    """Every cell that either row writes gets the same value from both."""
+    return ex.conjunction(*(_same(model, name, left, right) for name in sorted(left.writes | right.writes)))
+
+
+def _same(model: ModelData, name: str, left: Row, right: Row) -> Expr:
+    signature = model.signatures[name]
+    refs = tuple(ex.Ref(f"at{i}", sort) for i, sort in enumerate(signature.sorts))
+    cell = ex.Cell(name, refs, signature.of)
+    return bind(True, refs, ex.equal(after(cell, left.assigns), after(cell, right.assigns)))
+
+
+def claim_mutants(model: ModelData) -> Iterator[tuple[str, Claim]]:
+    """Each claim negated, and each with a condition less; what is then claimed is more than the text says.
+
+    Negated, what is to happen sometimes is claimed never to happen.
+    """
+    for claim in model.claims:
+        negated = replace(claim, formula=ex.negation(claim.formula))
+        if claim.kind == "sometimes":
+            facts = any(isinstance(part, ex.RowFact) for part in ex.walk(claim.formula))
+            two = facts or ex.reads_next(claim.formula)
+            yield NEGATED, replace(negated, kind="step" if two else "always")
+            continue
+        yield NEGATED, negated
+        for formula in _stricter(claim.formula):
+            yield STRICTER, replace(claim, formula=formula)
+
+
+def _stricter(formula: Expr) -> Iterator[Expr]:
+    """The formula with one alternative less; of an implication, with one condition less."""
+    match formula:
+        case ex.Quantified(True, bound, body):
+            yield from (ex.quantified(True, bound, made) for made in _stricter(body))
+        case ex.And(parts):
+            for at, part in enumerate(parts):
+                for made in _stricter(part):
+                    yield ex.conjunction(*parts[:at], made, *parts[at + 1 :])
+        case ex.Or(parts):
+            for at, part in enumerate(parts):
+                for made in _less(part):
+                    yield ex.disjunction(*parts[:at], made, *parts[at + 1 :])
+
+
+def _less(part: Expr) -> Iterator[Expr]:
+    """One alternative, made harder to meet."""
+    match part:
+        case ex.Not(ex.And(conditions)):
+            for at in range(len(conditions)):
+                yield ex.negation(ex.conjunction(*conditions[:at], *conditions[at + 1 :]))
+        case _:
+            yield ex.FALSE
