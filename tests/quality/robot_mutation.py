@@ -14,7 +14,7 @@ from mmsverify.model import expr as ex
 from mmsverify.model.declare import Assign
 from mmsverify.model.expr import Expr
 from mmsverify.model.occurrences import Occurrence
-from mmsverify.model.rows import Conjunct
+from mmsverify.model.rows import MINUS, Conjunct
 from mmsverify.model.sorts import BOOL, EnumSort
 
 STEP, TRANSITION, OBSERVATION, EVENT = "procedure step", "transition", "observation", "event"
@@ -87,7 +87,8 @@ def _of_conditions(rows: Mapping[int, Row]) -> Iterator[Mutant]:
 
 def _of_step(rows: Mapping[int, Row], passed: tuple[Conjunct, ...], at: int) -> Iterator[Mutant]:
     here = {n: row for n, row in rows.items() if row.guard[:at] == passed and len(row.guard) > at}
-    refusing = {n for n, row in here.items() if row.step and len(row.guard) == at + 1 and len(here) > 1}
+    last = {n for n, row in here.items() if row.step and len(row.guard) == at + 1}
+    refusing = {n for n in last if here[n].answer == MINUS and len(here) > 1}
     first = next(iter(here.values()))
     what, rule = what_is(first), first.guard[at].rule
     place = f"{first.name}: {rule or f'condition {at + 1}'}"
