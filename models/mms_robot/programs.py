@@ -165,7 +165,7 @@ class ProgramsRepaired(Programs, VocabularyRepaired):
         state[c].becomes(State.STOPPED).over(c).when(selected[pi] & controls[pi, c] & (state[c] == State.RUNNING)),
         controller[c, a].becomes(False).over(c, a).when(selected[pi] & (a == pi)),
         controls[a, c].becomes(False).over(a, c).when(selected[pi] & (a == pi)),
-        motion().becomes(False).when(selected[pi] | (moves_arm & started[pi])),
+        motion().becomes(False).when(selected[pi] | (moves_arm & runs[pi])),
         selected[a].becomes(False).over(a).when(a == pi),
     ]  # fmt: skip
 
