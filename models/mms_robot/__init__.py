@@ -15,12 +15,14 @@ from .execution import Execution
 from .execution_repaired import ExecutionRepaired
 from .figure8 import Figure8, Figure8Repaired
 from .observations import Observations
+from .outcomes import Outcomes, OutcomesRepaired
 from .programs import Programs, ProgramsRepaired
 from .properties import Properties
 from .properties_repaired import PropertiesRepaired
 from .scenario import named, scenario
 from .selection import Selection, SelectionRepaired
 from .services import Services
+from .transfers import Transfers, TransfersRepaired
 from .transitions import Transitions, TransitionsRepaired
 from .vmd import Vmd, VmdRepaired
 from .worlds import worlds
@@ -31,7 +33,7 @@ VIEWS = {"robot state": "robot_state", "program invocation": "state"}
 
 class AsWritten(
     Programs, Selection, Execution, Vmd, Associations, Domains, Devices, Observations,
-    Properties, DeviceProperties, Services, Attributes, Figure8, Transitions, Events,
+    Properties, DeviceProperties, Services, Attributes, Outcomes, Transfers, Figure8, Transitions, Events,
     name="mms-robot", variant="as-written", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
     consequences=CONSEQUENCES, named=named,
 ):  # fmt: skip
@@ -40,7 +42,7 @@ class AsWritten(
 
 class Repaired(
     ProgramsRepaired, SelectionRepaired, ExecutionRepaired, VmdRepaired, AssociationsRepaired, DomainsRepaired, Devices, Observations,
-    PropertiesRepaired, DeviceProperties, Services, Attributes, Figure8Repaired, TransitionsRepaired, Events,
+    PropertiesRepaired, DeviceProperties, Services, Attributes, OutcomesRepaired, TransfersRepaired, Figure8Repaired, TransitionsRepaired, Events,
     name="mms-robot", variant="repaired", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
     consequences=CONSEQUENCES, named=named,
 ):  # fmt: skip
