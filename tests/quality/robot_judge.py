@@ -20,8 +20,9 @@ from mmsverify.model.expr import Expr
 from mmsverify.model.rewrite import bind
 from mmsverify.model.rows import after
 from mmsverify.model.sorts import BOOL
+from mmsverify.symbolic.allowed import Allowed
 from mmsverify.symbolic.induction import may_break
-from mmsverify.symbolic.translate import Translator, obligation
+from mmsverify.symbolic.translate import obligation
 
 NEGATED, STRICTER = "claim negated", "condition of a claim dropped"
 
@@ -32,16 +33,8 @@ class Judge:
     def __init__(self, model: ModelData, *, seconds: float = 5.0) -> None:
         self.model = model
         self.claims = [claim for claim in model.claims if claim.kind != "sometimes"]
-        self.translator = Translator(model)
-        rigid = [*(c.condition for c in model.assumptions)]
-        self._solver = self._of([*rigid, *(c.formula for c in model.always)], seconds)
-        self._start = self._of([*rigid, *(c.condition for c in model.initial)], seconds)
-
-    def _of(self, given: Iterable[Expr], seconds: float) -> z3.Solver:
-        solver = z3.Solver()
-        solver.set("timeout", int(seconds * 1000))
-        solver.add(*map(self.translator.formula, given), *self.translator.bounds())
-        return solver
+        self._allowed = Allowed(model, model.always, timeout=seconds)
+        self._begins = Allowed(model, (), timeout=seconds)
 
     # Rows.
 
@@ -54,12 +47,12 @@ class Judge:
         goals = {claim: obligation(claim, row) for claim in self.claims if may_break(row, claim)}
         goals = {claim: goal for claim, goal in goals.items() if goal != ex.TRUE}
         whole = ex.negation(ex.conjunction(*goals.values()))
-        if not goals or self._ask(self._solver, row.guard_formula, whole) == z3.unsat:
+        if not goals or self._allowed.ask(row.guard_formula, whole) == z3.unsat:
             return ""
         broken = (
             claim.name
             for claim, goal in goals.items()
-            if self._ask(self._solver, row.guard_formula, ex.negation(goal)) == z3.sat
+            if self._allowed.ask(row.guard_formula, ex.negation(goal)) == z3.sat
         )
         return next(broken, "")
 
@@ -91,14 +84,7 @@ class Judge:
         )
 
     def _never(self, *conditions: Expr) -> bool:
-        return self._ask(self._solver, *conditions) == z3.unsat
-
-    def _ask(self, solver: z3.Solver, *conditions: Expr) -> z3.CheckSatResult:
-        solver.push()
-        solver.add(*map(self.translator.formula, conditions))
-        answer = solver.check()
-        solver.pop()
-        return answer
+        return not self._allowed.possible(*conditions)
 
     # Claims.
 
@@ -116,14 +102,14 @@ class Judge:
             goal = obligation(claim, row)
             if goal != ex.TRUE and (claim.kind == "step" or may_break(row, claim)):
                 conditions = [] if claim.kind == "step" else [claim.formula]
-                answers.append(self._ask(self._solver, *conditions, row.guard_formula, ex.negation(goal)))
+                answers.append(self._allowed.ask(*conditions, row.guard_formula, ex.negation(goal)))
                 if answers[-1] == z3.sat:
                     return True
         return None if z3.unknown in answers else False
 
     def _starts(self, claim: Claim) -> Iterator[z3.CheckSatResult]:
         if claim.kind == "always":
-            yield self._ask(self._start, ex.negation(claim.formula))
+            yield self._begins.ask(*(c.condition for c in self.model.initial), ex.negation(claim.formula))
 
 
 def _understood(claim: Claim, row: Row) -> bool:

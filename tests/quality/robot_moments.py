@@ -8,7 +8,8 @@ from pathlib import Path
 from mutant_recordings import judged
 from robot_acts import Act
 from robot_mutation import Mutant
-from robot_talk import Taken, Talk, retold, row_name, shrunk
+from robot_retelling import retold, shrunk
+from robot_talk import Taken, Talk, row_name
 
 from mmsverify.concrete.evaluate import step
 from mmsverify.model import ModelData

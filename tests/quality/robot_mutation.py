@@ -128,7 +128,7 @@ def _other(value: Expr) -> Expr:
         return ex.choice(value.condition, value.otherwise, value.then)
     if isinstance(sort, EnumSort):
         members = sort.members
-        at = members.index(value.value) if isinstance(value, ex.Const) else 0  # type: ignore[arg-type]
+        at = members.index(value.value) if isinstance(value, ex.Const) else 0
         return ex.Const(members[(at + 1) % len(members)], sort)
     return ex.Plus(value, ex.Const(1, sort), 1)
 

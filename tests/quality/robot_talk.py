@@ -7,7 +7,7 @@ and what remains is conforming by its making.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -389,27 +389,3 @@ class Talk:
 def row_name(row: Row) -> str:
     """A row's name in acts: rows of one step may answer differently."""
     return f"{row.id} {row.answer}".strip()
-
-
-def retold(talk: Talk, acts: Sequence[Act]) -> Talk:
-    """The conversation in which these acts happen, as far as they can."""
-    made = Talk(talk.model, talk.scope, talk._start)
-    for act in acts:
-        made.do(act)
-    made.settle()
-    return made
-
-
-def shrunk(talk: Talk, fails: Callable[[Talk], bool]) -> Talk:
-    """A shorter conversation that still fails: stretches of acts are left out as long as it does."""
-    acts, size = list(talk.done), max(1, len(talk.done) // 2)
-    while size:
-        begin, left = 0, False
-        while begin < len(acts):
-            shorter = acts[:begin] + acts[begin + size :]
-            if fails(retold(talk, shorter)):
-                acts, left = shorter, True
-            else:
-                begin += size
-        size = size if left and size == 1 else size // 2
-    return retold(talk, acts)

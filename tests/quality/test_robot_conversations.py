@@ -12,7 +12,8 @@ from robot import robot
 from robot_acts import IN_REFUSALS, IN_REQUESTS, LOOKS
 from robot_conversations import blamed, conversation
 from robot_random import Chance
-from robot_talk import ARMS, ASSOCIATING, Talk, retold, row_name, shrunk
+from robot_retelling import retold, shrunk
+from robot_talk import ARMS, ASSOCIATING, Talk, row_name
 
 from mmsverify.audit import robot as adapter
 from mmsverify.audit.transfers import UPLOADING
