@@ -15,6 +15,16 @@ from mmsverify.model.rows import Claim, Clause, Conjunct, Gap, Repair
 from mmsverify.model.terms import Term, formula
 
 
+def _stated(what: str, source: Declared, clause: object, condition: Term | bool | None) -> Expr:
+    """The formula of a declaration that needs a clause and a formula, in this order."""
+    cure = f"write {type(source).__name__}('R-...', formula)"
+    if not isinstance(clause, str) or not clause:
+        raise mistake(f"{what} without a clause", cure, source.place)
+    if condition is None:
+        raise mistake(f"{what} without a formula", cure, source.place)
+    return formula(condition)
+
+
 class ClaimSource(Declared):
     """A declaration that becomes a claim."""
 
@@ -22,15 +32,16 @@ class ClaimSource(Declared):
     provided: Expr = ex.TRUE
 
     def __init__(
-        self, clause: str, condition: Term | bool, *cites: str, says: str = "", repairs: Repair | None = None
+        self,
+        clause: str,
+        condition: Term | bool | None = None,
+        *cites: str,
+        says: str = "",
+        repairs: Repair | None = None,
     ) -> None:
         self.place = caller()
-        if not isinstance(clause, str) or not clause:
-            raise mistake(
-                "a claim without a clause", f"write {type(self).__name__}('R-...', formula)", self.place
-            )
+        self.formula = _stated("a claim", self, clause, condition)
         self.clause = Clause.of(clause, *cites)
-        self.formula = formula(condition)
         self.says = says
         self.repairs = repairs
         if self.kind == "always" and ex.reads_next(self.formula):
@@ -67,7 +78,7 @@ class Sometimes(ClaimSource):
     def __init__(
         self,
         clause: str,
-        condition: Term | bool,
+        condition: Term | bool | None = None,
         *cites: str,
         says: str = "",
         provided: Term | bool = True,
@@ -91,10 +102,11 @@ class Initially(Declared):
     """A condition on the state at power-on."""
 
     def __init__(
-        self, clause: str, condition: Term | bool, *cites: str, repairs: Repair | None = None
+        self, clause: str, condition: Term | bool | None = None, *cites: str, repairs: Repair | None = None
     ) -> None:
         self.place = caller()
-        self.conjunct = Conjunct(formula(condition), Clause.of(clause, *cites))
+        stated = _stated("a condition", self, clause, condition)
+        self.conjunct = Conjunct(stated, Clause.of(clause, *cites))
         self.repairs = repairs
 
 
@@ -102,10 +114,11 @@ class Assume(Declared):
     """A fact about what never changes (``rigid`` variables): what a profile must respect."""
 
     def __init__(
-        self, clause: str, condition: Term | bool, *cites: str, repairs: Repair | None = None
+        self, clause: str, condition: Term | bool | None = None, *cites: str, repairs: Repair | None = None
     ) -> None:
         self.place = caller()
-        self.conjunct = Conjunct(formula(condition), Clause.of(clause, *cites))
+        stated = _stated("a condition", self, clause, condition)
+        self.conjunct = Conjunct(stated, Clause.of(clause, *cites))
         self.repairs = repairs
 
 

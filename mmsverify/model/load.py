@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import importlib.util
 import sys
-import traceback
 from pathlib import Path
 from types import ModuleType
 
 from mmsverify.errors import ModelError, UsageError
+from mmsverify.model.misread import told
 from mmsverify.model.model import Model, ModelData, assemble
 
 
@@ -90,20 +90,9 @@ def _execute(path: Path) -> ModuleType:
     except ModelError:
         _forget(name)
         raise
-    except SyntaxError as error:
-        _forget(name)
-        raise ModelError(
-            f"not valid Python: {error.msg}", place=f"{error.filename}:{error.lineno}", cure="mend the syntax"
-        ) from None
     except Exception as error:
         _forget(name)
-        line = [
-            f for f in traceback.extract_tb(error.__traceback__) if f.filename.startswith(str(path.parent))
-        ][-1:]
-        place = f"{line[0].filename}:{line[0].lineno}" if line else str(path)
-        raise ModelError(
-            f"{type(error).__name__}: {error}", place=place, cure="mend this line of the model file"
-        ) from None
+        raise told(error, path) from None
     return module
 
 

@@ -107,7 +107,7 @@ class Procedure(RowSource):
 
     def __init__(
         self,
-        clause: str,
+        clause: str = "",
         *,
         on: On,
         steps: Sequence[Step],

@@ -182,8 +182,36 @@ MISTAKES = {
         "ZeroDivisionError", "mend this line",
     ),
     "an unknown word": (
-        'x = Always("L-1", alight[a])  # here',
-        "alight", "mend this line",
+        'x = Always("L-1", colours[a] == Colour.RED)  # here',
+        "colours is not declared", "did you mean colour?",
+    ),
+    "a word like no other": (
+        'x = Always("L-1", zzz[a])  # here',
+        "zzz is not declared", "declare it above this line: zzz = Variable(...)",
+    ),
+    "a formula where the clause belongs": (
+        "x = Always(lit[a])  # here",
+        "a claim without a clause", "write Always('R-...', formula)",
+    ),
+    "a clause without a formula": (
+        'x = Sometimes("L-1")  # here',
+        "a claim without a formula", "write Sometimes('R-...', formula)",
+    ),
+    "a start without a clause": (
+        "x = Initially(lit[a])  # here",
+        "a condition without a clause", "write Initially('R-...', formula)",
+    ),
+    "a procedure without a clause": (
+        'x = Procedure(on=response("go", a), steps=[accept("m")])  # here',
+        "a row without a clause", "give the clause of the procedure",
+    ),
+    "a row without an event": (
+        'x = Transition("L-1", then=[])  # here',
+        "Transition lacks on", "write Transition(...) with on",
+    ),
+    "an option that does not exist": (
+        "x = Relation(L, rigged=True)  # here",
+        "knows no rigged=", "mend the spelling",
     ),
     "a syntax error": (
         "x = = 1  # here",
@@ -216,6 +244,23 @@ def written(folder: Path, text: str) -> Path:
 def line_of(path: Path, mark: str) -> int:
     lines = path.read_text(encoding="utf-8").splitlines()
     return next(number for number, line in enumerate(lines, 1) if mark in line)
+
+
+def test_a_null_byte_is_told_with_its_line(tmp_path: Path) -> None:
+    path = written(tmp_path, HEAD + "    x = '\0'\n")
+    with pytest.raises(ModelError) as caught:
+        load(str(path), tmp_path)
+    last = HEAD.count("\n") + 1
+    assert str(caught.value) == f"{path}:{last}: a null byte, which no text has (save it as UTF-8 text)"
+
+
+def test_octets_that_are_no_text_are_told_with_the_file(tmp_path: Path) -> None:
+    path = tmp_path / "lamp.py"
+    path.write_bytes(b"x = '\xff'\n")
+    with pytest.raises(ModelError, match="not valid Python") as caught:
+        load(str(path), tmp_path)
+    assert caught.value.place.startswith(str(path))
+    assert "None" not in str(caught.value)
 
 
 def test_a_file_without_a_model_is_refused(tmp_path: Path) -> None:
