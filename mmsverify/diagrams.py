@@ -27,11 +27,11 @@ DIAGRAM_BOUNDS = (0, 1)
 """The bounds of integers without bounds: a diagram shows that a counter changes, not how far it counts."""
 
 
-def draw(model: str, *, variant: str, format: str) -> str:
+def draw(model: str, *, variant: str | None = None, format: str) -> str:
     """The views of a model as ``mermaid``, ``dot`` or ``svg``.
 
-    ``model`` is a name or a path. The scope is the model's option ``diagram`` (``{"sizes": ..., "profile":
-    ...}``), else two of each sort.
+    ``model`` is a name or a path; without ``variant``, ``repaired`` is drawn where the model has it. The
+    scope is the model's option ``diagram`` (``{"sizes": ..., "profile": ...}``), else two of each sort.
     """
     if format not in DRAWINGS:
         raise UsageError(f"no diagrams in the format {format!r}", cure=f"use one of {', '.join(DRAWINGS)}")

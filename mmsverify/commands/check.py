@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from mmsverify.commands.options import VARIANT_HELP, Output, Profile, Quiet
+from mmsverify.commands.options import Output, OwnVariant, Profile, Quiet
 from mmsverify.commands.output import emit, progress, remark, require_writable
 from mmsverify.errors import UsageError
 from mmsverify.report import CHECK_FORMATS, render_check, require_format
@@ -18,7 +18,6 @@ Models = Annotated[
     list[str] | None,
     typer.Argument(metavar="MODEL", help="Names or model files; all built-in ones if none."),
 ]
-Variant = Annotated[str | None, typer.Option("--variant", metavar="as-written|repaired", help=VARIANT_HELP)]
 Properties = Annotated[
     list[str] | None, typer.Option("--property", metavar="NAME", help="Only this property; may be repeated.")
 ]
@@ -41,7 +40,7 @@ Counterexamples = Annotated[
 def check(
     models: Models = None,
     *,
-    variant: Variant = None,
+    variant: OwnVariant = None,
     properties: Properties = None,
     scope: Scope = None,
     unbounded: Unbounded = False,

@@ -6,7 +6,7 @@ from typing import Annotated
 
 import typer
 
-from mmsverify.commands.options import Output, Quiet, Variant
+from mmsverify.commands.options import Output, OwnVariant, Quiet
 from mmsverify.commands.output import emit, require_writable
 from mmsverify.report import require_format
 
@@ -15,7 +15,7 @@ FORMATS = ("mermaid", "dot", "svg")
 
 def diagram(
     model: Annotated[str, typer.Argument(metavar="MODEL", help="The name of a model, or a model file.")],
-    variant: Variant = "repaired",
+    variant: OwnVariant = None,
     format: Annotated[str, typer.Option("--format", metavar="|".join(FORMATS))] = "mermaid",
     output: Output = None,
     quiet: Quiet = False,  # noqa: ARG001 (every command takes it; this one has nothing to be quiet about)

@@ -20,3 +20,7 @@ Profile = Annotated[
 ]
 VARIANT_HELP = "as-written: the standard's text as it stands; repaired: with its faults mended."
 Variant = Annotated[str, typer.Option("--variant", metavar="as-written|repaired", help=VARIANT_HELP)]
+OwnVariant = Annotated[
+    str | None, typer.Option("--variant", metavar="as-written|repaired", help=VARIANT_HELP)
+]
+"""Where none is named: repaired if the model has it, else its only one."""

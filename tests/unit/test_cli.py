@@ -334,7 +334,7 @@ def test_a_drawing_is_printed_with_a_final_line_feed(
 ) -> None:
     engine("diagrams", draw=lambda model, *, variant, format: f"{model} {variant} {format}")
     assert main(["diagram", "mms-robot", "--format", "dot"]) == 0
-    assert capsys.readouterr().out == "mms-robot repaired dot\n"
+    assert capsys.readouterr().out == "mms-robot None dot\n"
 
 
 def test_the_version_is_printed(capsys: pytest.CaptureFixture[str]) -> None:

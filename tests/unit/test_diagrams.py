@@ -34,6 +34,15 @@ def test_a_view_shows_what_each_cell_does() -> None:
     assert lights.arrows == (Arrow("False", "True", ("press",), ("L-1-a", "L-1-b", "L-1-m")),)
 
 
+def test_a_model_file_with_one_variant_is_drawn_without_naming_it(tmp_path: Path) -> None:
+    path = tmp_path / "lamp.py"
+    path.write_text(
+        "from mmsverify.model import *\nclass Lamp(Model, name='lamp'):\n    lit = Relation()\n"
+        "    press = Transition('L-1', on=internal('press'), then=[lit().becomes(True)])\n"
+    )
+    assert "press" in draw(str(path), format="mermaid")
+
+
 def test_a_view_of_a_part_says_so() -> None:
     assert not views(MACHINE, {"colour": "colour"}, max_states=2)[0].complete
 
