@@ -103,13 +103,17 @@ class ProfileFinding:
 
 @dataclass(frozen=True, slots=True)
 class ModelCheck:
-    """All verdicts of one model in one variant, and what the profile that was given breaks."""
+    """All verdicts of one model in one variant, and what the profile that was given breaks.
+
+    ``left_out`` are the properties asked for that are not claimed of robots with that profile.
+    """
 
     model: str
     variant: str
     verdicts: Sequence[Verdict]
     notes: Sequence[str] = ()
     profile: Sequence[ProfileFinding] = ()
+    left_out: Sequence[str] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,7 +12,7 @@ from mmsverify.checking.proofs import Proofs
 from mmsverify.checking.request import Progress, Request, require_known, require_sorts
 from mmsverify.checking.runs import Explorer
 from mmsverify.checking.worlds import World, small_worlds
-from mmsverify.errors import ProfileError
+from mmsverify.errors import ProfileError, UsageError
 from mmsverify.model.expr import Expr
 from mmsverify.model.load import load, names
 from mmsverify.model.model import ModelData
@@ -61,7 +61,19 @@ def check_models(
         request = Request(properties, sizes, unbounded, depth, timeout, table, judged)
         if not properties or any(map(request.asks_for, model.claims)):
             checks.append(check_model(model, request, progress))
+    _require_something(properties, checks)
     return checks
+
+
+def _require_something(properties: Sequence[str], checks: Sequence[ModelCheck]) -> None:
+    """Refuse a request of which nothing is left: no verdict at all must not look like success."""
+    if properties and not any(check.verdicts for check in checks):
+        names = ", ".join(dict.fromkeys(name for check in checks for name in check.left_out))
+        raise UsageError(
+            f"{names}: not claimed of what has this profile, so that nothing is left to check",
+            place="--property",
+            cure="name another property, or leave --profile out",
+        )
 
 
 def _judged(
@@ -75,15 +87,19 @@ def _judged(
 
 def check_model(model: ModelData, request: Request, progress: Progress = None) -> ModelCheck:
     """The verdicts of one model."""
-    claims = [claim for claim in model.claims if request.asks_for(claim) and _made_of(model, claim, request)]
+    asked = [claim for claim in model.claims if request.asks_for(claim)]
+    claims = [claim for claim in asked if _made_of(model, claim, request)]
+    left_out = tuple(claim.title for claim in asked if claim not in claims)
+    if not claims:
+        return ModelCheck(model.name, model.variant, [], (), request.judged, left_out)
     check = _Check(model, request, progress)
     if request.sizes is None:
         check.without_bounds(claims)
     else:
         check.within(World(request.sizes, request.profile or {}), claims)
     found = [check.verdict(claim) for claim in claims]
-    notes = [*_notes(model, request), *check.coverage()]
-    return ModelCheck(model.name, model.variant, found, tuple(notes), request.judged)
+    notes = [*_notes(model, request, found), *check.coverage()]
+    return ModelCheck(model.name, model.variant, found, tuple(notes), request.judged, left_out)
 
 
 def _require_possible(model: ModelData, facts: Sequence[Expr]) -> None:
@@ -104,12 +120,12 @@ def _made_of(model: ModelData, claim: Claim, request: Request) -> bool:
     return all(applies(model, claim, world.scope(model)) for world in small_worlds(model, request.profile))
 
 
-def _notes(model: ModelData, request: Request) -> Iterator[str]:
+def _notes(model: ModelData, request: Request, found: Sequence[Verdict]) -> Iterator[str]:
     for gap in model.gaps:
         yield f"gap {gap.name} ({' '.join(gap.clause.ids)}): {gap.says}"
-    if request.sizes is not None:
+    if request.sizes is not None and any(verdict.method != "induction" for verdict in found):
         low, high = World(request.sizes, request.profile or {}).scope(model, few=False).int_bounds
-        yield f"integers without bounds range from {low} to {high} in this scope"
+        yield f"where a verdict names a scope, integers without bounds range from {low} to {high}"
 
 
 class _Check:

@@ -12,6 +12,9 @@ from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Claim
 from mmsverify.results import ProfileFinding
 
+MOST_NAMES = 8
+"""Names that an error may list."""
+
 Progress = Callable[[str], None] | None
 
 
@@ -45,9 +48,19 @@ def require_known(properties: Sequence[str], models: Sequence[ModelData]) -> Non
     known = {claim.title for model in models for claim in model.claims}
     for name in map(_hyphened, properties):
         if name not in known:
-            near = get_close_matches(name, sorted(known), n=1)
-            cure = f"did you mean {near[0]}?" if near else f"use one of {', '.join(sorted(known)) or 'none'}"
+            cure = _meant(name, sorted(known))
             raise UsageError(f"no property named {name!r}", place="--property", cure=cure)
+
+
+def _meant(name: str, known: Sequence[str]) -> str:
+    """The name that is nearest; else all of them, or some where they are many: it is to be one line."""
+    near = get_close_matches(name, known, n=1)
+    if near:
+        return f"did you mean {near[0]}?"
+    if len(known) <= MOST_NAMES:
+        return f"use one of {', '.join(known) or 'none'}"
+    likely = get_close_matches(name, known, n=MOST_NAMES, cutoff=0.0)
+    return f"there are {len(known)}, among them {', '.join(likely)}; check without --property lists all"
 
 
 def require_sorts(sizes: Mapping[str, int] | None, models: Sequence[ModelData]) -> None:

@@ -26,6 +26,8 @@ def _model(check: ModelCheck) -> dict[str, Any]:
     }
     if check.profile:
         model["profile"] = [plain(asdict(found)) for found in check.profile]
+    if check.left_out:
+        model["left_out"] = list(check.left_out)
     return model | ({"notes": list(check.notes)} if check.notes else {})
 
 

@@ -29,6 +29,9 @@ def _model(check: ModelCheck) -> Iterator[str]:
         yield from _undecided(verdict)
     for verdict in check.verdicts:
         yield from _broken(verdict)
+    if check.left_out:
+        yield ""
+        yield from folded(["not claimed with this profile: " + check.left_out[0], *check.left_out[1:]], WIDTH)
     if check.profile:
         yield ""
         yield from map(_of_profile, check.profile)

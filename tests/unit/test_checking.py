@@ -131,6 +131,27 @@ def test_an_unknown_property_is_refused_with_the_nearest_name(lamps: str) -> Non
         check(lamps, properties=["one-lip"])
 
 
+def test_an_unknown_property_like_no_other_is_refused_with_some_names_only() -> None:
+    with pytest.raises(UsageError, match=r"no property named 'zzz' \(there are \d+, among them ") as caught:
+        check("mms-robot", properties=["zzz"])
+    assert caught.value.cure.count(",") <= 9
+
+
+def test_properties_that_a_profile_leaves_out_are_named() -> None:
+    found = check("mms-robot", properties=["one-holder", "runs-steps"], profile=Path("no-step"))
+    assert ([v.name for v in found.verdicts], found.left_out) == (["one-holder"], ("runs-steps",))
+
+
+def test_a_check_of_which_a_profile_leaves_nothing_is_refused() -> None:
+    with pytest.raises(UsageError, match="runs-steps: not claimed of what has this profile"):
+        check("mms-robot", properties=["runs-steps"], profile=Path("no-step"))
+
+
+def test_bounds_of_integers_are_told_only_where_a_verdict_rests_on_a_scope(lamps: str) -> None:
+    assert any("integers" in note for note in check(lamps, scope={"L": 1}).notes)
+    assert not any("integers" in note for note in check(lamps).notes)
+
+
 @pytest.mark.parametrize("scope", [{"Lamp": 2}, {"L": 0}])
 def test_a_scope_that_no_model_has_is_refused(lamps: str, scope: dict[str, int]) -> None:
     with pytest.raises(UsageError, match="--scope"):

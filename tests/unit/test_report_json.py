@@ -128,6 +128,11 @@ def test_a_check_has_the_keys_of_its_schema_in_their_order() -> None:
     ]  # fmt: skip
 
 
+def test_properties_that_a_profile_leaves_out_are_listed() -> None:
+    assert "left_out" not in checked(CHECK)["models"][0]
+    assert checked(replace(CHECK, left_out=("a", "b")))["models"][0]["left_out"] == ["a", "b"]
+
+
 def test_a_counterexample_is_told_step_by_step_with_the_whole_state() -> None:
     broken, reached, _ = checked(CHECK)["models"][0]["properties"]
     assert broken["witness"] is None

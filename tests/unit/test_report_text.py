@@ -117,6 +117,13 @@ def test_notes_of_a_model_are_told_at_the_end() -> None:
     assert render_check([CHECK], "text").endswith("\nnote: two rows overlap\n")
 
 
+def test_properties_that_a_profile_leaves_out_are_told() -> None:
+    names = [f"property-{i}" for i in range(20)]
+    told = render_check([ModelCheck("m", "repaired", [OPEN], left_out=names)], "text")
+    assert "\nnot claimed with this profile: property-0, property-1," in told
+    assert all(len(line) <= 100 for line in told.splitlines() if "property-" in line)
+
+
 def test_a_model_without_properties_is_still_told() -> None:
     assert render_check([ModelCheck("m", "repaired", [])], "text").startswith("m, repaired: no property")
 
