@@ -8,6 +8,7 @@ from mmsverify.model import (
     MINUS,
     PLUS,
     Always,
+    Sometimes,
     Step,
     answered,
     any_of,
@@ -19,7 +20,7 @@ from mmsverify.model import (
     unchanged,
 )
 
-from .vocabulary import Control, Logical, Mode, RobotState, State, Vocabulary, VocabularyRepaired
+from .vocabulary import Control, Logical, Mode, Physical, RobotState, State, Vocabulary, VocabularyRepaired
 
 NAMING_ONE = (
     "start",
@@ -102,6 +103,11 @@ class Outcomes(Vocabulary):
         "R-6.3.3-t101", (service_is("select") & answered("")) >> for_all(p)(selecting[request, p].next == if_(controlling.present, controlling == p, selected[p])),
         "R-6.3.3-t104", says="being selected is what Select names; without a name, being deselected is what is selected")  # fmt: skip
 
+    only_entered_changes = Step("B-START", (service_is(*TWO_STEPS) & answered(MINUS) & ~entered[request, pi]) >> (state[pi].next == state[pi]),
+                                "B-STOP", "B-RESUME", "B-RESET", "B-FAIL", says="a result(-) changes no program invocation that its request has not entered")  # fmt: skip
+    asked_is_tried = Step("RP-27", (service_is("start") & answered("")) >> ~untried[pi].next, "R-6.3.2.1-1",
+                          says="what has been asked to start may have been executed")  # fmt: skip
+
     # Attributes of execution (5.3.2, 6.3.2).
     only_tasks_have_modes = Step(
         "R-6.3.2.5-1", ((service_is("start", "alterPI") | (service_is("resume") & (type_given | ~limit.present))) & (control[pi] != Control.CONTROLLING)) >> unchanged(mode, cycles, steps, starts_elsewhere),
@@ -143,6 +149,8 @@ class Outcomes(Vocabulary):
     terms_of_ownership = Step(
         "B-SEMAPHORE", (service_is("takeControl") & answered(PLUS) & ~single_association()) >> ((limited[user].next == times_out) & (keeps[user].next == stays)),
         says="who takes control owns it for as long, and beyond its association, as it asked")  # fmt: skip
+    new_association_owes_nothing = Step("B-SEMAPHORE", (service_is("initiate") & answered(PLUS)) >> (~limited[user].next & ~keeps[user].next),
+                                        says="nothing is agreed of R_CTRL before it is taken")  # fmt: skip
     terms_end_with_ownership = Always("B-SEMAPHORE", for_all(u)((limited[u] | keeps[u]) >> holder[u]),
                                       says="how long control is owned is agreed of its owner only")  # fmt: skip
     taken_over_on_purpose = Step("B-SEMAPHORE", (service_is("takeControl") & answered(PLUS) & hung()) >> preempts,
@@ -157,6 +165,77 @@ class Outcomes(Vocabulary):
     control_is_asked_for = Step(
         "R-5.1.3-2", for_all(u)((holder[u].next & ~holder[u]) >> (service_is("takeControl") | (service_is("initiate") & single_association()))), "R-9.2.2.1-5",
         says="nobody holds R_CTRL who has not taken it")  # fmt: skip
+
+    # Statuses (7.4.2.2, Tables 1 and 8).
+    stopped_needs_somebody = Step(
+        "R-T8-3", (service_is("vMDStop") & answered(PLUS)) >> ((logical().next == Logical.NO_STATE_CHANGES_ALLOWED) & (physical().next == Physical.NEEDS_COMMISSIONING)
+                                                             & (robot_state().next == RobotState.INTERVENTION)), "R-7.4.2.2-5", "R-T8-4", "R-T8-1", "R-7.4.2.2-3",
+        says="VMD Stop ends in the statuses of Table 8")  # fmt: skip
+    intervenes, intervenes_later = (
+        robot_state() == RobotState.INTERVENTION,
+        robot_state().next == RobotState.INTERVENTION,
+    )
+    left_for_full_service = Sometimes(
+        "R-5.3.1.3.2.6-2", intervenes & ~intervenes_later & (logical().next == Logical.STATE_CHANGES_ALLOWED) & (physical().next == Physical.OPERATIONAL))  # fmt: skip
+    limited_in_operation = Sometimes(
+        "R-T1-3", ~intervenes & ~intervenes_later & ~local_control() & (logical() == Logical.STATE_CHANGES_ALLOWED) & (logical().next == Logical.LIMITED_SERVICES_PERMITTED)
+        & (physical() == Physical.OPERATIONAL) & (physical().next == Physical.INOPERABLE))  # fmt: skip
+    supported_in_local_control = Sometimes(
+        "R-T1-1",
+        ~local_control() & local_control().next & (logical().next == Logical.SUPPORT_SERVICES_ALLOWED),
+    )
+    limited_in_intervention = Sometimes(
+        "R-T1-2", ~intervenes & intervenes_later & (logical().next == Logical.LIMITED_SERVICES_PERMITTED)
+    )
+
+    # What is claimed of each service, and of what happens by itself, is not claimed of nothing.
+    kills = Sometimes(
+        "R-7.3.3.7.1-c",
+        service_is("kill") & answered(PLUS) & exists[pi] & (state[pi].next == State.UNRUNNABLE),
+    )
+    stops = Sometimes(
+        "R-7.3.3.4.1-d",
+        service_is("stop")
+        & answered(PLUS)
+        & (state[pi] == State.STOPPING)
+        & (state[pi].next == State.STOPPED),
+    )
+    error_is_recorded = Sometimes(
+        "R-6.3.2.1-1", for_some(p)((error_code[p] == 0) & (error_code[p].next != 0))
+    )
+    program_moves_on = Sometimes("R-6.3.2.4-1", for_some(p)(~located[p] & located[p].next))
+    hangs_after_time = Sometimes(
+        "B-SEMAPHORE",
+        service_is("ownership_times_out") & ~hung() & hung().next,
+        provided=~single_association(),
+    )
+    deletes = Sometimes(
+        "R-7.3.3.8.1-e",
+        service_is("deleteProgramInvocation") & answered(PLUS) & exists[pi] & ~exists[pi].next,
+    )
+    counts_down = Sometimes(
+        "R-6.3.2.6-1",
+        for_some(p)(
+            (state[p] == State.RUNNING)
+            & (state[p].next == State.RUNNING)
+            & (cycles[p].next < cycles[p])
+            & ~service_is("alterPI", "resume")
+        ),
+    )
+    steps_down = Sometimes(
+        "R-6.3.2.7-1",
+        for_some(p)(
+            (state[p] == State.RUNNING)
+            & (state[p].next == State.RUNNING)
+            & (steps[p].next < steps[p])
+            & ~service_is("alterPI", "resume")
+        ),
+    )
+    ownership_ends_in_time = Sometimes(
+        "B-SEMAPHORE",
+        service_is("ownership_times_out") & holder[user] & ~holder[user].next,
+        provided=~single_association(),
+    )
 
     # At the panel (5.3.1.4).
     panel_serves_local_control = Step("R-5.3.1.4-3", (panel & ~local_control()) >> ~answered(PLUS),
@@ -225,6 +304,9 @@ class OutcomesRepaired(Outcomes, VocabularyRepaired):
     only_tasks_are_altered = Step("R-7.4.5.1.1.1-1", (service_is("alterPI") & answered(PLUS)) >> (exists[pi] & (control[pi] == Control.CONTROLLING)), "RP-14",
                                   says="what is altered is an existing CONTROLLING program invocation",
                                   repairs=repaired("RP-14", "R-7.4.5.2-b", because="a name that does not exist is refused"))  # fmt: skip
+    counts_not_negative = Always("R-6.3.2.6-1", for_all(p)((cycles[p] >= 0) & (steps[p] >= 0)), "R-6.3.2.7-1", "RP-14",
+                                 says="no less than nothing is left",
+                                 repairs=repaired("RP-14", "R-7.4.5.2-b", because="a count that is not positive is refused"))  # fmt: skip
     alter_count_positive = Step(
         "R-7.3.3.3.1.4-2", (service_is("alterPI") & answered(PLUS) & limit.present & (limit != Mode.FREE_RUN)) >> (count > 0), "R-7.3.3.3.1.5-2",
         says="a program is altered to a positive count",
@@ -245,6 +327,11 @@ class OutcomesRepaired(Outcomes, VocabularyRepaired):
             for_all(a)(selected[a] >> (state[a] != State.RUNNING))), "R-5.3.1.3.3.9-1", "R-7.3.3.4.1-1",
         says="the robot pauses only if an arm's program does not run any more, or after its task program has been stopped",
         repairs=repaired("RP-07", "R-7.3.3.4.1-1", because="after Stop of the task program the arm comes to rest by itself"))  # fmt: skip
+    arm_rests_after_stop = Sometimes(
+        "R-7.3.3.4.1-1", for_some(a, c)(selected[a] & (state[a] == State.STOPPED) & controls[a, c] & arm[c] & (state[c].next == State.RUNNING))
+        & motion() & (robot_state().next == RobotState.MOTION_PAUSED) & unchanged(state), "R-5.3.1.3.3.9-1",
+        provided=for_some(p)(predefined[p] & predefined_arm[p] & (predefined_control[p] == Control.CONTROLLED)),
+        repairs=repaired("RP-07", "R-7.3.3.4.1-1", because="stated for the rest after Stop"))  # fmt: skip
     motion_leaves_programs = Step("R-7.3.3.4.1-1", service_is("arm_comes_to_rest") >> unchanged(state, selected, controls, controller),
                                   says="that the arm comes to rest changes no program",
                                   repairs=repaired("RP-07", "R-7.3.3.4.1-1", because="stated for the rest after Stop"))  # fmt: skip

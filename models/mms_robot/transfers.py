@@ -7,6 +7,7 @@ from mmsverify.model import (
     MINUS,
     PLUS,
     Always,
+    Sometimes,
     Step,
     answered,
     any_of,
@@ -118,6 +119,10 @@ class Transfers(Vocabulary):
     # Storing, deleting, binding.
     stored_is_ready = Step("B-LOAD", (service_is("storeDomainContent") & answered(PLUS)) >> (domain_state[domain] == READY),
                            says="what is stored is READY or IN-USE")  # fmt: skip
+    domain_is_deleted = Sometimes(
+        "B-DELETE-DOMAIN",
+        service_is("deleteDomain") & (domain_state[domain] == READY) & (domain_state[domain].next == NONE),
+    )
     deleted_was_there = Step("B-DELETE-DOMAIN", (service_is("deleteDomain") & answered(PLUS)) >> (domain_state[domain] != NONE),
                              says="what is deleted has been there")  # fmt: skip
     bound_while_it_exists = Step(

@@ -7,8 +7,9 @@ model. Where Z3 does not know, nothing is said: such a mutant counts neither as 
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import cached_property
 
 import z3
 from robot_mutation import Mutant
@@ -16,14 +17,17 @@ from robot_mutation import Mutant
 from mmsverify.model import Claim, ModelData, Row
 from mmsverify.model import expr as ex
 from mmsverify.model.declare import Assign
-from mmsverify.model.expr import Expr
-from mmsverify.model.rewrite import bind
-from mmsverify.model.rows import after
-from mmsverify.model.sorts import BOOL
+from mmsverify.model.expr import Expr, Ref
+from mmsverify.model.rewrite import bind, rebuilt, substitute
+from mmsverify.model.rows import after, step_formula
+from mmsverify.model.sorts import BOOL, IntSort
+from mmsverify.model.terms import SetOf
 from mmsverify.symbolic.allowed import Allowed
 from mmsverify.symbolic.induction import may_break
 from mmsverify.symbolic.translate import obligation
 
+LOCAL = {"prevented"}
+"""Parameters of answers that stand for local conditions, of which no message tells."""
 NEGATED, STRICTER = "claim negated", "condition of a claim dropped"
 
 
@@ -38,12 +42,20 @@ class Judge:
 
     # Rows.
 
-    def lost(self, mutant: Mutant) -> str:
-        """A claim that a changed row may break; empty if none."""
-        changed = (row for row in mutant.rows.values() if row is not None)
-        return next((name for row in changed if (name := self._lost(row))), "")
+    def lost(self, mutant: Mutant) -> str | None:
+        """A claim that a changed row may break, or that nothing can bear out any more.
 
-    def _lost(self, row: Row) -> str:
+        Empty if there is none, ``None`` if Z3 does not know.
+        """
+        changed = [row for row in mutant.rows.values() if row is not None]
+        answers: list[str | None] = []
+        for row in changed:
+            answers.append(self._lost(row))
+            if answers[-1]:
+                return answers[-1]
+        return None if None in answers else self._starved(frozenset(mutant.rows), changed)
+
+    def _lost(self, row: Row) -> str | None:
         goals = {claim: obligation(claim, row) for claim in self.claims if may_break(row, claim)}
         goals = {claim: goal for claim, goal in goals.items() if goal != ex.TRUE}
         whole = ex.negation(ex.conjunction(*goals.values()))
@@ -54,20 +66,53 @@ class Judge:
             for claim, goal in goals.items()
             if self._allowed.ask(row.guard_formula, ex.negation(goal)) == z3.sat
         )
-        return next(broken, "")
+        return next(broken, None)
+
+    def _starved(self, numbers: frozenset[int], changed: Sequence[Row]) -> str:
+        """A claim that something can happen which only these rows made happen, and the changed ones do not.
+
+        The changed rows keep the invariants, so that what they cannot do in a state that keeps these never
+        happens.
+        """
+        for claim, makers in self._makers.items():
+            if makers and makers <= numbers and not any(self._makes(row, claim) for row in changed):
+                return claim.name
+        return ""
+
+    @cached_property
+    def _makers(self) -> dict[Claim, frozenset[int]]:
+        """The rows by which each claimed step can happen."""
+        actions = [(n, row) for n, row in enumerate(self.model.rows) if row.on.phase != "shown"]
+        return {
+            claim: frozenset(n for n, row in actions if self._makes(row, claim))
+            for claim in self.model.claims
+            if claim.kind == "sometimes" and of_a_step(claim.formula)
+        }
+
+    def _makes(self, row: Row, claim: Claim) -> bool:
+        wanted = step_formula(claim.formula, row)
+        return wanted != ex.FALSE and self._allowed.possible(row.guard_formula, wanted)
 
     def alike(self, mutant: Mutant) -> bool:
         """Whether the changed rows are proved to do what the real ones do, wherever the invariants hold.
 
-        Rows with one answer and one effect stand for each other: which step refuses is not to be seen.
+        Rows with one answer and one effect stand for each other: which step refuses is not to be seen. So do
+        rows that differ in how a free choice is called: TRUE for FALSE, a number for the next one, a set for
+        what is not in it.
         """
         if mutant.occurrences:
             return False
-        real = _outcomes(self.model.rows[n] for n in mutant.rows)
-        changed = _outcomes(row for row in mutant.rows.values() if row is not None)
+        if self._as_real(mutant.rows):
+            return True
+        choices = free_choices(self.model.rows[n] for n in mutant.rows)
+        return any(self._as_real(renamed(mutant.rows, choice)) for choice in choices)
+
+    def _as_real(self, rows: Mapping[int, Row | None]) -> bool:
+        real = _outcomes(self.model.rows[n] for n in rows)
+        changed = _outcomes(row for row in rows.values() if row is not None)
         if all(self._same(real.get(key), changed.get(key)) for key in {*real, *changed}):
             return True
-        return all(self._alike(self.model.rows[n], row) for n, row in mutant.rows.items())
+        return all(self._alike(self.model.rows[n], row) for n, row in rows.items())
 
     def _same(self, real: Expr | None, changed: Expr | None) -> bool:
         mine, yours = real or ex.FALSE, changed or ex.FALSE
@@ -140,6 +185,48 @@ def _same(model: ModelData, name: str, left: Row, right: Row) -> Expr:
     return bind(True, refs, ex.equal(after(cell, left.assigns), after(cell, right.assigns)))
 
 
+def free_choices(rows: Iterable[Row]) -> Iterator[Ref | SetOf]:
+    """Parameters that no message tells, of which one value may be called by another's name."""
+    seen = set()
+    for row in rows:
+        for parameter in row.parameters:
+            untold = row.on.phase == "internal" or parameter in row.choices or parameter.name in LOCAL
+            of = parameter.of
+            plain = isinstance(parameter, Ref) and (of == BOOL or isinstance(of, IntSort))
+            if untold and (plain or isinstance(parameter, SetOf)):
+                seen.add(parameter)
+    yield from sorted(seen, key=lambda parameter: parameter.name)
+
+
+def renamed(rows: Mapping[int, Row | None], choice: Ref | SetOf) -> dict[int, Row | None]:
+    """The rows with the values of a choice called otherwise, one by one."""
+
+    def change(expr: Expr) -> Expr:
+        if isinstance(choice, SetOf):
+            return complemented(expr, choice.name)
+        other = ex.negation(choice) if choice.of == BOOL else ex.Plus(choice, ex.Const(1, choice.of), -1)
+        return substitute(expr, {choice.name: other})
+
+    def changed(row: Row) -> Row:
+        guard = tuple(replace(c, condition=change(c.condition)) for c in row.guard)
+        assigns = (replace(a, value=change(a.value), where=change(a.where)) for a in row.assigns)
+        return replace(row, guard=guard, assigns=tuple(assigns))
+
+    return {number: None if row is None else changed(row) for number, row in rows.items()}
+
+
+def complemented(expr: Expr, name: str) -> Expr:
+    """The expression with a set that is given called by what is not in it."""
+    if isinstance(expr, ex.Member) and expr.set == name:
+        return ex.negation(expr)
+    return rebuilt(expr, lambda part: complemented(part, name))
+
+
+def of_a_step(formula: Expr) -> bool:
+    """Whether a claim speaks of a step, and not of a state."""
+    return ex.reads_next(formula) or any(isinstance(part, ex.RowFact) for part in ex.walk(formula))
+
+
 def claim_mutants(model: ModelData) -> Iterator[tuple[str, Claim]]:
     """Each claim negated, and each with a condition less; what is then claimed is more than the text says.
 
@@ -148,9 +235,7 @@ def claim_mutants(model: ModelData) -> Iterator[tuple[str, Claim]]:
     for claim in model.claims:
         negated = replace(claim, formula=ex.negation(claim.formula))
         if claim.kind == "sometimes":
-            facts = any(isinstance(part, ex.RowFact) for part in ex.walk(claim.formula))
-            two = facts or ex.reads_next(claim.formula)
-            yield NEGATED, replace(negated, kind="step" if two else "always")
+            yield NEGATED, replace(negated, kind="step" if of_a_step(claim.formula) else "always")
             continue
         yield NEGATED, negated
         for formula in _stricter(claim.formula):
