@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from itertools import product
 from typing import Any
 
 from mmsverify.concrete.evaluate import Moment, Valuation, value
@@ -98,15 +97,9 @@ def readable_state(model: ModelData, scope: Scope, state: Valuation, rigid: bool
 
 
 def defined(model: ModelData, scope: Scope, state: Valuation) -> dict[str, Value | None]:
-    """The value of every definition by printed name, save Boolean ones: they only repeat what cells say."""
-    found: dict[str, Value | None] = {}
-    for name, (parameters, body) in model.definitions.items():
-        if body.sort is BOOL:
-            continue
-        for args in product(*(scope.values(parameter.of) for parameter in parameters)):
-            bindings = dict(zip((p.name for p in parameters), args, strict=True))
-            found[cell_name((name, tuple(map(str, args))))] = value(body, Moment(scope, state, bindings))
-    return found
+    """The value of every definition that speaks of the whole state; the others only repeat what cells say."""
+    whole = {n: body for n, (given, body) in model.definitions.items() if not given and body.sort is not BOOL}
+    return {name: value(body, Moment(scope, state, {})) for name, body in whole.items()}
 
 
 def readable(held: Binding) -> Any:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from mmsverify.checking.proofs import Proofs
 from mmsverify.checking.runs import Run
-from mmsverify.faults.partings import Parting, partings
+from mmsverify.faults.partings import Parting, last_parting
 from mmsverify.model import expr as ex
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Claim, Clause
@@ -24,7 +24,7 @@ class Mended:
         self._proved = proofs.proved
 
     def mendings(self, claim: Claim, runs: Sequence[Run]) -> Iterator[Mending]:
-        """The repair of the claim, if it is stated otherwise; then what keeps each run from breaking it."""
+        """The repair of the claim, if it is stated otherwise; then what keeps each run from the breach."""
         told = (
             [Parting(claim.name, "", Clause(()), "is stated otherwise")]
             if claim.name in self.model.repairs
@@ -32,7 +32,7 @@ class Mended:
         )
         watched = ex.variables_of(claim.formula)
         for run in runs:
-            told += partings(self.model, run.world, run.path, watched)
+            told += last_parting(self.model, run.world, run.path, watched)
         for parting in {(p.declared, p.step): p for p in reversed(told)}.values():
             yield self._mending(parting)
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 
 from mmsverify.report.wording import cells, counted, printable, spoken
-from mmsverify.results import Breach, Fault, Oddity, PathStep, Survey
+from mmsverify.results import Breach, Fault, Mending, Oddity, PathStep, Survey
 
 KINDS = {
     "unreachable": "What the text says in vain",
@@ -50,7 +50,7 @@ def _document(survey: Survey) -> Iterator[str]:
 
 def _line(fault: Fault) -> str:
     procedures = ", ".join(dict.fromkeys(breach.procedure for breach in fault.breaches))
-    readings = ", ".join(sorted({mending.reading for mending in fault.mendings}))
+    readings = ", ".join(sorted({r for m in fault.mendings for r in m.reading.split(", ") if r}))
     return f"| [{fault.name}](#{fault.name}) | {' '.join(fault.clauses)} | {procedures} | {readings or '-'} |"
 
 
@@ -75,9 +75,12 @@ def _fault(fault: Fault) -> Iterator[str]:
     yield ""
     yield f"In the repaired reading: {fault.mended}."
     yield from (
-        f"- `{mending.declaration}` ({mending.reading}; {', '.join(mending.clauses)}): {mending.because}"
-        for mending in fault.mendings
+        f"- `{mending.declaration}` ({_rests_on(mending)}): {mending.because}" for mending in fault.mendings
     )
+
+
+def _rests_on(mending: Mending) -> str:
+    return "; ".join(part for part in (mending.reading, ", ".join(mending.clauses)) if part)
 
 
 def _title(breach: Breach) -> str:
