@@ -4,13 +4,11 @@ from __future__ import annotations
 
 from functools import cache
 
-from mmsverify.checking import check_models
 from mmsverify.checking.worlds import World, small_worlds
 from mmsverify.concrete import Machine, Scope, SearchResult, search
 from mmsverify.concrete.slicing import narrowed, sliced
 from mmsverify.model import Claim, ModelData, load
 from mmsverify.resources import models_dir
-from mmsverify.results import ModelCheck
 
 VARIANTS = ("as-written", "repaired")
 
@@ -18,13 +16,6 @@ VARIANTS = ("as-written", "repaired")
 @cache
 def robot(variant: str) -> ModelData:
     return load("mms-robot", models_dir(), variant)
-
-
-@cache
-def checked(variant: str) -> ModelCheck:
-    """What ``check mms-robot`` finds: it takes minutes, so the tests of one process share it."""
-    (found,) = check_models(["mms-robot"], variant=variant)
-    return found
 
 
 def first_world() -> World:

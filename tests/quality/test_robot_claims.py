@@ -5,8 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from robot import VARIANTS, checked, look, robot
+from robot import VARIANTS, look, robot
+from robot_broken import BROKEN
 
+from mmsverify.checking import check_models
 from mmsverify.checking.certificates import write_certificates
 from mmsverify.checking.runs import alike
 from mmsverify.checking.worlds import World
@@ -14,63 +16,15 @@ from mmsverify.concrete.machine import speaks_of_steps
 from mmsverify.model import Claim
 from mmsverify.model import expr as ex
 from mmsverify.model.expr import Expr
+from mmsverify.results import ModelCheck
 from mmsverify.symbolic.certificate import reads_as
 
-# Claims that the text breaks, with the length of the shortest counterexample; -1: proved to be out of reach.
-BROKEN = {
-    "abort-deassigns": 3,
-    "abort-removes-programs": 2,
-    "calibrating-until-finished": 4,
-    "calibration-does-not-load": 3,
-    "clear-needs-load": 4,
-    "executing-enables-motion": 4,
-    "executing-runs": 5,
-    "figure-8": 3,
-    "holder-is-associated": 2,
-    "idle-arm-uncontrolled": 3,
-    "idle-has-no-controlling": 2,
-    "idle-has-none-selected": 3,
-    "intervention-left-by-operator": 2,
-    "listed-are-controlled": 2,
-    "lists-follow-references": 4,
-    "loaded-arm-uncontrolled": 4,
-    "loaded-has-controlling": 3,
-    "loading-is-bound": 3,
-    "local-devices-are-not-changed": 3,
-    "none-without-task": 3,
-    "one-controller": 5,
-    "one-download": 6,
-    "one-holder": 3,
-    "only-existing-use": 4,
-    "only-selected-controls": 0,
-    "paused-runs": 6,
-    "predicates-exclusive": 1,
-    "predicates-exhaustive": 2,
-    "program-diagram": 5,
-    "ready-controls-arm": 2,
-    "ready-has-idle-selected": 3,
-    "ready-left-by-deassign": 4,
-    "references-are-controlling": 3,
-    "references-follow-lists": 3,
-    "refusal-has-no-effect": 4,
-    "refusal-keeps-states": 2,
-    "refused-select-selects-nothing": 4,
-    "remote-cannot-change-domains": 2,
-    "remote-cannot-in-local-control": 2,
-    "resume-count-positive": 5,
-    "selected-can-run": 3,
-    "selected-is-controlling": 3,
-    "start-count-positive": 4,
-    "steps-supported": 3,
-    "stops-all": -1,
-    "stops-by-arm": -1,
-    "unshared-has-one-user": 3,
-    "uploads-have-domain": 4,
-    "used-domains-exist": 2,
-}
-
-
 EVERY_SCOPE = "any number of PI, Client, Request, Domain, Upload, Device, Joint"
+
+
+def checked(variant: str) -> ModelCheck:
+    (found,) = check_models(["mms-robot"], variant=variant)
+    return found
 
 
 @pytest.mark.slow

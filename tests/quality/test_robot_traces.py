@@ -5,15 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from robot import VARIANTS, checked, robot
+from robot import VARIANTS, robot
+from robot_broken import BROKEN
 
 from mmsverify.auditing import audit_traces
-from mmsverify.checking import write_counterexamples
 from mmsverify.checking.request import Request
 from mmsverify.checking.robot_trace import INDICATIONS, SERVICES
-from mmsverify.checking.runs import Explorer
+from mmsverify.checking.runs import Explorer, Run
+from mmsverify.checking.traces import write_run
 from mmsverify.checking.worlds import small_worlds
 from mmsverify.faults.partings import partings
+from mmsverify.model import Claim
 
 BOOKKEEPING = "what is loaded or read is forgotten when its domain is gone: only the robot's own books tell"
 READ_OTHERWISE = "repaired states the property otherwise (RP-12), and this run keeps that"
@@ -31,36 +33,45 @@ HIDDEN = {"loads", "uploads", "upload_state", "source", "entered", "selecting", 
 """What no message shows: for whom a domain is loaded or read, what is being handled, how R_CTRL ends."""
 
 
-def audited(folder: Path, variant: str) -> dict[str, int]:
-    """The recordings of a check by property and kind, each with the number of findings."""
-    paths = write_counterexamples([checked(variant)], folder)
-    findings = audit_traces(paths, profile=None, model=None).findings
-    counts = {path: sum(finding.path == str(path) for finding in findings) for path in paths}
-    return {path.name.removeprefix(f"mms-robot.{variant}."): count for path, count in counts.items()}
+def runs(variant: str, claims: list[Claim], states: int) -> dict[str, Run]:
+    """A run for each of these claims that one is found for, by the claim's title."""
+    model = robot(variant)
+    explorer = Explorer(model, Request())
+    explorer.explore(claims, small_worlds(model, None), states=states)
+    return {claim.title: explorer.runs[claim.name] for claim in claims if claim.name in explorer.runs}
+
+
+def found_in(shown: dict[str, Run], folder: Path) -> dict[str, int]:
+    """How many findings the audit has in the recording of each run."""
+    paths = {title: write_run(run.steps, folder / f"{title}.mcap") for title, run in shown.items()}
+    findings = audit_traces([*paths.values()], profile=None, model=None).findings
+    return {title: sum(f.path == str(path) for f in findings) for title, path in paths.items()}
 
 
 @pytest.mark.slow
 def test_the_audit_finds_nothing_in_a_witness_of_repaired(tmp_path: Path) -> None:
-    found = audited(tmp_path, "repaired")
-    assert len(found) >= 18
-    assert {name: count for name, count in found.items() if count} == {}
+    wanted = [claim for claim in robot("repaired").claims if claim.kind == "sometimes"]
+    shown = runs("repaired", wanted, 100_000)
+    assert sorted(shown) == sorted(claim.title for claim in wanted)
+    assert {title: count for title, count in found_in(shown, tmp_path).items() if count} == {}
 
 
 @pytest.mark.slow
 def test_the_audit_flags_every_counterexample_that_messages_can_show(tmp_path: Path) -> None:
-    found = {n: c for n, c in audited(tmp_path, "as-written").items() if n.endswith("counterexample.mcap")}
-    assert {name.split(".")[0] for name, count in found.items() if not count} == SILENT.keys()
+    broken = {title for title, length in BROKEN.items() if length >= 0}
+    shown = runs("as-written", [c for c in robot("as-written").claims if c.title in broken], 100_000)
+    assert shown.keys() == broken
+    found = found_in(shown, tmp_path)
+    assert {title for title, count in found.items() if not count} == SILENT.keys()
 
 
 def test_what_the_audit_does_not_flag_the_repaired_robot_does_as_well_and_shows_the_same() -> None:
     written, mended = robot("as-written"), robot("repaired")
-    claims = [claim for claim in written.claims if claim.title in SILENT]
-    explorer = Explorer(written, Request())
-    explorer.explore(claims, small_worlds(written, None), states=60_000)
-    assert sorted(claim.title for claim in claims if claim.name in explorer.runs) == sorted(SILENT)
-    for run in explorer.runs.values():
-        shown = written.signatures.keys() - HIDDEN
-        assert list(partings(mended, run.world, run.path, shown)) == []
+    silent = runs("as-written", [claim for claim in written.claims if claim.title in SILENT], 60_000)
+    assert silent.keys() == SILENT.keys()
+    shown = written.signatures.keys() - HIDDEN
+    told = {title: list(partings(mended, run.world, run.path, shown)) for title, run in silent.items()}
+    assert {title: found for title, found in told.items() if found} == {}
 
 
 @pytest.mark.parametrize("variant", VARIANTS)
