@@ -230,6 +230,7 @@ class Outcomes(Vocabulary):
             & (steps[p].next < steps[p])
             & ~service_is("alterPI", "resume")
         ),
+        provided=step_limited(),
     )
     ownership_ends_in_time = Sometimes(
         "B-SEMAPHORE",

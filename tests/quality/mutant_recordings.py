@@ -6,8 +6,9 @@ the faults of its catalogue: none is made from the rows that it judges.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -51,45 +52,48 @@ def judged(path: Path, model: ModelData) -> Found:
 
 @dataclass
 class Recording:
-    """One recording, the services in it, and what the real model finds."""
+    """One recording: the clauses that are broken in it, as its author says, and the services in it."""
 
     path: Path
-    services: frozenset[str]
-    found: Found
-
-
-@dataclass
-class Shelf:
-    """All recordings, judged by the real model."""
-
     model: ModelData
-    folder: Path
-    recordings: list[Recording] = field(default_factory=list)
+    clauses: frozenset[str]
+    services: frozenset[str]
 
-    def __post_init__(self) -> None:
-        for path in _written(self.folder):
-            self.recordings.append(Recording(path, _services(path), judged(path, self.model)))
+    @cached_property
+    def found(self) -> Found:
+        """What the real model finds."""
+        return judged(self.path, self.model)
+
+
+class Shelf:
+    """All recordings; each is judged by the real model when it is first needed."""
+
+    def __init__(self, model: ModelData, folder: Path) -> None:
+        self.model = model
+        self.recordings = [
+            Recording(path, model, frozenset(clauses), _services(path)) for path, clauses in _written(folder)
+        ]
 
     def telling(self, mutant: Mutant) -> str:
         """The first of the recordings in question that the mutant judges otherwise; empty if none does."""
         changed = mutant.applied(self.model)
         for recording in self.in_question(mutant):
-            found = judged(recording.path, changed)
-            if found != recording.found:
+            if judged(recording.path, changed) != recording.found:
                 return recording.path.stem
         return ""
 
     def in_question(self, mutant: Mutant) -> list[Recording]:
-        """Those in which the changed rule is broken, then those in which the changed service is asked for."""
-        services = {self.service(number) for number in mutant.rows}
-        events = bool(mutant.occurrences)
-        rules = {r.path: {rule for _, rule, _ in r.found} for r in self.recordings}
-        broken = [r for r in self.recordings if mutant.rule and mutant.rule in rules[r.path]]
-        wanted = {"eventNotification"} if events else services
-        asked = [r for r in self.recordings if r not in broken and (wanted & r.services)]
-        size = {r.path: r.path.stat().st_size for r in asked}
-        asked.sort(key=lambda r: (bool(r.found) is not bool(mutant.rule), size[r.path]))
-        return broken[:3] + asked[: MOST if not events else len(asked)]
+        """Those in which the clause of the change is broken, then those in which the service is asked for.
+
+        Shorter ones come first, and of those that ask for a service the ones that keep the rules.
+        """
+        wanted = {"eventNotification"} if mutant.occurrences else {*map(self.service, mutant.rows)}
+        asked = [r for r in self.recordings if wanted & r.services]
+        asked.sort(key=lambda r: r.path.stat().st_size)
+        broken = [r for r in asked if r.clauses.intersection(mutant.clauses)]
+        others = [r for r in asked if r not in broken]
+        others.sort(key=lambda r: bool(r.clauses))
+        return broken[:MOST] + others[:MOST]
 
     def service(self, number: int) -> str:
         """The service by which a recording shows the row."""
@@ -97,15 +101,18 @@ class Shelf:
         return ASKED_IN.get(on.service, on.service) if on.phase == "shown" else on.service
 
 
-def _written(folder: Path) -> Iterator[Path]:
+def _written(folder: Path) -> Iterator[tuple[Path, Iterable[str]]]:
+    """Each recording, and the clauses that are broken in it."""
     for path in stories(BY_HAND):
-        yield Story(path.read_text(encoding="utf-8")).write(folder / f"by_hand-{path.stem}.mcap")
+        story = Story(path.read_text(encoding="utf-8"))
+        clauses = {clause for judgement in story.judged for clause in judgement.clauses}
+        yield story.write(folder / f"by_hand-{path.stem}.mcap"), clauses
     for name, fault in CATALOGUE.items():
-        yield write(folder / f"fault-{name}.mcap", fault.tape().messages, fault.profile)
+        yield write(folder / f"fault-{name}.mcap", fault.tape().messages, fault.profile), fault.clauses
     for seed in range(FREE):
         talk = Talk(seed)
         tape = talk.hold(MESSAGES)
-        yield write(folder / f"free-{seed}.mcap", tape.messages, talk.profile)
+        yield write(folder / f"free-{seed}.mcap", tape.messages, talk.profile), ()
 
 
 def _services(path: Path) -> frozenset[str]:

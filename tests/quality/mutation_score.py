@@ -89,8 +89,7 @@ class Score:
         return (CHECK, claim.name) if refuted else (EQUAL, "proved, too")
 
     def _of_rows(self, mutant: Mutant) -> tuple[str, str]:
-        claim = self.judge.lost(mutant)
-        if claim:
+        if claim := self.judge.lost(mutant):
             return CHECK, claim
         if self.judge.alike(mutant):
             return EQUAL, ""

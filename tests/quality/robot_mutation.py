@@ -14,7 +14,7 @@ from mmsverify.model import expr as ex
 from mmsverify.model.declare import Assign
 from mmsverify.model.expr import Expr
 from mmsverify.model.occurrences import Occurrence
-from mmsverify.model.rows import MINUS, Conjunct
+from mmsverify.model.rows import MINUS, Clause, Conjunct
 from mmsverify.model.sorts import BOOL, EnumSort
 
 STEP, TRANSITION, OBSERVATION, EVENT = "procedure step", "transition", "observation", "event"
@@ -25,14 +25,14 @@ DROPPED, NEGATED, LOST, CHANGED = "step dropped", "condition negated", "effect l
 class Mutant:
     """One change: to what, of which kind, where; the rows as they are then, by the place of the real one.
 
-    A row that is gone is ``None``. ``rule`` is that of the changed condition.
+    A row that is gone is ``None``. ``clauses`` are those of what is changed.
     """
 
     what: str
     kind: str
     place: str
     rows: Mapping[int, Row | None]
-    rule: str = ""
+    clauses: frozenset[str] = frozenset()
     occurrences: Mapping[int, Occurrence] = field(default_factory=dict)
 
     def __str__(self) -> str:
@@ -64,6 +64,11 @@ def _numbered(made: tuple[Mutant, ...]) -> Iterator[Mutant]:
         yield mutant if count == 1 else replace(mutant, place=f"{mutant.place} ({count})")
 
 
+def cited(clause: Clause) -> frozenset[str]:
+    """All ids of a citation."""
+    return frozenset((*clause.ids, *clause.readings))
+
+
 def what_is(row: Row) -> str:
     """What the row belongs to."""
     if row.on.phase == "shown":
@@ -90,12 +95,12 @@ def _of_step(rows: Mapping[int, Row], passed: tuple[Conjunct, ...], at: int) -> 
     last = {n for n, row in here.items() if row.step and len(row.guard) == at + 1}
     refusing = {n for n in last if here[n].answer == MINUS and len(here) > 1}
     first = next(iter(here.values()))
-    what, rule = what_is(first), first.guard[at].rule
-    place = f"{first.name}: {rule or f'condition {at + 1}'}"
+    what, clauses = what_is(first), cited(first.guard[at].clause)
+    place = f"{first.name}: {first.guard[at].rule or f'condition {at + 1}'}"
     without = {n: None if n in refusing else _guarded(row, at, None) for n, row in here.items()}
-    yield Mutant(what, DROPPED, place, without, rule)
+    yield Mutant(what, DROPPED, place, without, clauses)
     negated = {n: _guarded(row, at, ex.negation(row.guard[at].condition)) for n, row in here.items()}
-    yield Mutant(what, NEGATED, place, negated, rule)
+    yield Mutant(what, NEGATED, place, negated, clauses)
 
 
 def _guarded(row: Row, at: int, condition: Expr | None) -> Row:
@@ -145,4 +150,4 @@ def _of_events(model: ModelData) -> Iterator[Mutant]:
             f"{event.name} ": (LOST, replace(event, before=ex.FALSE)),
         }
         for place, (kind, changed) in changes.items():
-            yield Mutant(EVENT, kind, place.strip(), {}, occurrences={number: changed})
+            yield Mutant(EVENT, kind, place.strip(), {}, cited(event.clause), {number: changed})
