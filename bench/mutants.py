@@ -1,20 +1,23 @@
 """The mutation score of the robot model: do ``check`` and ``audit`` notice a rule that is written otherwise?
 
-    python bench/mutants.py [--write] [--every N]
+    python bench/mutants.py [--write] [--every N] [--kept FILE]
 
 One line is printed for each mutant that nothing kills. ``--write`` writes docs/mutation.md; ``--every N``
-takes only each N-th mutant. Two processes share the work; the clock depends on the machine, the result does
-not.
+takes only each N-th mutant; ``--kept FILE`` keeps what becomes of each, and judges only those anew that were
+alive: for a run that goes on, or one with more recordings. Two processes share the work; the clock depends on
+the machine, the result does not.
 """
 
 from __future__ import annotations
 
 import argparse
+import json
 import sys
 import tempfile
 import time
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
+from dataclasses import asdict
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -29,16 +32,28 @@ PAGE = ROOT / "docs" / "mutation.md"
 PROCESSES = 2
 
 
-def part(numbers: Sequence[int]) -> list[Fate]:
+def part(numbers: Sequence[int], kept: Path | None) -> list[Fate]:
     """The fates of some mutants, by their numbers."""
     with tempfile.TemporaryDirectory() as folder:
         score = Score(Path(folder))
         fates = []
         for number in numbers:
-            fates.append(score.fate(number))
-            if fates[-1].open:
-                print(fates[-1], flush=True)
+            fate = score.fate(number)
+            fates.append(fate)
+            if fate.open:
+                print(fate, flush=True)
+            if kept is not None:
+                with kept.open("a", encoding="utf-8") as file:
+                    file.write(json.dumps(asdict(fate)) + "\n")
         return fates
+
+
+def settled(kept: Path | None) -> dict[int, Fate]:
+    """What was killed or equal before."""
+    if kept is None or not kept.exists():
+        return {}
+    fates = (Fate(**json.loads(line)) for line in kept.read_text(encoding="utf-8").splitlines())
+    return {fate.number: fate for fate in fates if not fate.open}
 
 
 def main() -> None:
@@ -46,12 +61,16 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--write", action="store_true")
     parser.add_argument("--every", type=int, default=1)
+    parser.add_argument("--kept", type=Path)
     given = parser.parse_args()
     begin = time.perf_counter()
-    numbers = range(0, len(numbered_mutants()), given.every)
+    known = settled(given.kept)
+    numbers = [n for n in range(0, len(numbered_mutants()), given.every) if n not in known]
+    shares = [numbers[i::PROCESSES] for i in range(PROCESSES)]
     with ProcessPoolExecutor(PROCESSES, mp_context=get_context("spawn")) as pool:
-        parts = list(pool.map(part, [numbers[i::PROCESSES] for i in range(PROCESSES)]))
-    fates = sorted((fate for some in parts for fate in some), key=lambda fate: fate.number)
+        parts = list(pool.map(part, shares, [given.kept] * PROCESSES))
+    made = [fate for some in parts for fate in some]
+    fates = sorted([*known.values(), *made], key=lambda fate: fate.number)
     text = page(fates)
     if given.write:
         PAGE.write_text(text, encoding="utf-8")
