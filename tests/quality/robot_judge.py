@@ -38,6 +38,7 @@ class Judge:
         self.model = model
         self.claims = [claim for claim in model.claims if claim.kind != "sometimes"]
         self._allowed = Allowed(model, model.always, timeout=seconds)
+        self._asked: dict[tuple[object, ...], tuple[tuple[str, Expr], ...]] = {}
         self._begins = Allowed(model, (), timeout=seconds)
 
     # Rows.
@@ -56,17 +57,32 @@ class Judge:
         return None if None in answers else self._starved(frozenset(mutant.rows), changed)
 
     def _lost(self, row: Row) -> str | None:
-        goals = {claim: obligation(claim, row) for claim in self.claims if may_break(row, claim)}
-        goals = {claim: goal for claim, goal in goals.items() if goal != ex.TRUE}
-        whole = ex.negation(ex.conjunction(*goals.values()))
-        if not goals or self._allowed.ask(row.guard_formula, whole) == z3.unsat:
+        goals = self._goals(row)
+        answer = self._fails(row, goals) if goals else z3.unsat
+        if answer == z3.unsat:
             return ""
-        broken = (
-            claim.name
-            for claim, goal in goals.items()
-            if self._allowed.ask(row.guard_formula, ex.negation(goal)) == z3.sat
-        )
-        return next(broken, None)
+        return self._first_lost(row, goals) if answer == z3.sat else None
+
+    def _goals(self, row: Row) -> tuple[tuple[str, Expr], ...]:
+        """What each claim asks of a row; rows that differ in their guard alone are asked the same."""
+        key = row.name, row.answer, row.on, row.choices, row.assigns
+        if key not in self._asked:
+            goals = ((c.name, obligation(c, row)) for c in self.claims if may_break(row, c))
+            self._asked[key] = tuple((name, goal) for name, goal in goals if goal != ex.TRUE)
+        return self._asked[key]
+
+    def _fails(self, row: Row, goals: Sequence[tuple[str, Expr]]) -> z3.CheckSatResult:
+        whole = ex.conjunction(*(goal for _, goal in goals))
+        return self._allowed.ask(row.guard_formula, ex.negation(whole))
+
+    def _first_lost(self, row: Row, goals: Sequence[tuple[str, Expr]]) -> str | None:
+        """One of the claims, of which together it is known that the row may break them."""
+        if len(goals) == 1:
+            return goals[0][0]
+        middle = len(goals) // 2
+        halves = (goals[:middle], goals[middle:])
+        lost = next((half for half in halves if self._fails(row, half) == z3.sat), None)
+        return None if lost is None else self._first_lost(row, lost)
 
     def _starved(self, numbers: frozenset[int], changed: Sequence[Row]) -> str:
         """A claim that something can happen which only these rows made happen, and the changed ones do not.

@@ -1,4 +1,4 @@
-"""The claims and recordings have teeth: of a sample of rules and claims written otherwise, nearly all are noticed.
+"""The claims and recordings have teeth: of rules and claims written otherwise, nearly all are noticed.
 
 The whole is measured by ``bench/mutants.py``, which writes docs/mutation.md.
 """
