@@ -15,7 +15,6 @@ if os.environ.get("CI"):
 
 
 UNSETTLED = {
-    "test_most_effects_of_accepting_rows_matter_to_some_claim",
     "test_the_document_is_what_the_tool_makes",
     "test_no_fault_is_left_in_the_repaired_reading",
     "test_every_fault_says_what_it_means_for_a_plant",
