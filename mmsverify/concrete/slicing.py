@@ -29,19 +29,10 @@ def cone(model: ModelData, claim: Claim) -> frozenset[str]:
     """Names of the variables that can matter to a claim."""
     known: set[str] = set()
     new = set(ex.variables_of(claim.formula))
-    while new - known:
+    while new:
         known |= new
-        new = {name for row in model.actions if row.writes & known for name in _reads(row, known)}
+        new = {name for variable in new for name in model.depends.get(variable, ())} - known
     return frozenset(known)
-
-
-def _reads(row: Row, written: Iterable[str]) -> set[str]:
-    """What the row reads in order to write the variables."""
-    exprs = [c.condition for c in row.guard]
-    for assign in row.assigns:
-        if assign.variable in written:
-            exprs += [assign.value, assign.where, *assign.args]
-    return {name for expr in exprs for name in ex.variables_of(expr)}
 
 
 def sliced(model: ModelData, claims: Sequence[Claim]) -> ModelData:

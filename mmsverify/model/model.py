@@ -154,6 +154,17 @@ class ModelData:
         """The rows that can change state; observations cannot."""
         return tuple(row for row in self.rows if row.on.phase != "shown")
 
+    @cached_property
+    def depends(self) -> Mapping[str, frozenset[str]]:
+        """For each variable that a row writes, the variables that some row reads in order to write it."""
+        read: dict[str, set[str]] = {}
+        for row in self.actions:
+            tested = ex.variables_of(row.guard_formula)
+            for assign in row.assigns:
+                exprs = (assign.value, assign.where, *assign.args)
+                read.setdefault(assign.variable, set()).update(tested, *map(ex.variables_of, exprs))
+        return {name: frozenset(names) for name, names in read.items()}
+
     def define(self, name: str, *args: Expr) -> Expr:
         """A definition at its arguments, expanded to the variables; a stored variable is its own cell."""
         if name in self.definitions:
