@@ -92,7 +92,8 @@ def check_model(model: ModelData, request: Request, progress: Progress = None) -
     left_out = tuple(claim.title for claim in asked if claim not in claims)
     if not claims:
         return ModelCheck(model.name, model.variant, [], (), request.judged, left_out)
-    check = _Check(model, request, progress)
+    request = request.begun(len(claims))
+    check = _Check(model, request, progress, claims)
     if request.sizes is None:
         check.without_bounds(claims)
     else:
@@ -131,11 +132,14 @@ def _notes(model: ModelData, request: Request, found: Sequence[Verdict]) -> Iter
 class _Check:
     """One model, one request: what is proved, what is found, what is still open."""
 
-    def __init__(self, model: ModelData, request: Request, progress: Progress) -> None:
+    def __init__(
+        self, model: ModelData, request: Request, progress: Progress, asked: Sequence[Claim]
+    ) -> None:
         self.model, self.request, self.progress = model, request, progress
+        self.asked = asked
         facts = assumed(model, request.profile)
         _require_possible(model, facts)
-        self.proofs = Proofs(model, request.timeout, facts)
+        self.proofs = Proofs(model, request.timeout, facts, request.until)
         self.explorer = Explorer(model, request, progress)
         self.refuted: set[str] = set()
 
@@ -148,7 +152,7 @@ class _Check:
     def _unexplored(self, claims: Sequence[Claim]) -> Iterator[Claim]:
         """The open claims for which the scope was not searched whole."""
         searches = self.explorer.searches
-        return (c for c in self._open(claims) if not searches[c.name][-1].exhausted)
+        return (c for c in self._open(claims) if c.name not in searches or not searches[c.name][-1].exhausted)
 
     def without_bounds(self, claims: Sequence[Claim]) -> None:
         """Proofs for any number; short runs in one world; harder proofs of what is open; longer runs."""
@@ -171,7 +175,7 @@ class _Check:
         self.proofs.attempt([c for c in self.model.claims if c.kind != "sometimes"])
 
     def _prove_harder(self, claims: Sequence[Claim], sources: Sequence[Claim]) -> None:
-        left = self._open(claims)
+        left = [] if self.request.over else self._open(claims)
         if left:
             self._tell(f"harder proofs, {len(left)} properties open")
         if left and not self.proofs.proved:
@@ -201,13 +205,22 @@ class _Check:
 
     def coverage(self) -> Iterator[str]:
         """Gaps and overlaps of the rows, where the whole model is checked for any number of elements."""
-        if self.request.sizes is None and not self.request.properties:
+        if self.request.over:
+            yield "the time limit was reached: what is open was not looked into further"
+        elif self.request.sizes is None and not self.request.properties:
             yield from verdicts.told(Coverage(self.model, self.proofs.invariants))
+
+    def _seconds(self, name: str) -> float:
+        """What a claim took, with its share of what was proved beside the claims that are asked for."""
+        asked = {claim.name for claim in self.asked}
+        beside = sum(seconds for other, seconds in self.proofs.seconds.items() if other not in asked)
+        own = self.proofs.seconds.get(name, 0.0) + self.explorer.seconds.get(name, 0.0)
+        return own + beside / len(asked)
 
     def verdict(self, claim: Claim) -> Verdict:
         """What is known of a claim now."""
         name = claim.name
-        seconds = self.proofs.seconds.get(name, 0.0) + self.explorer.seconds.get(name, 0.0)
+        seconds = self._seconds(name)
         searches = self.explorer.searches.get(name, [])
         if name in self.explorer.runs:
             return verdicts.by_run(claim, self.explorer.runs[name], seconds)
@@ -217,6 +230,6 @@ class _Check:
             return verdicts.by_proof(self.model, claim, seconds)
         if name in self.refuted:
             return verdicts.out_of_reach(self.model, claim, seconds)
-        if self.request.sizes is not None:
+        if self.request.sizes is not None and searches:
             return verdicts.by_search(claim, searches[-1], seconds)
         return verdicts.undecided(self.model, claim, self.proofs.obstacles.get(name, []), searches, seconds)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
+import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from typing import Any
 
@@ -22,7 +24,8 @@ Progress = Callable[[str], None] | None
 class Request:
     """``sizes``: elements of each sort (a bounded check); ``unbounded``: no search for counterexamples.
 
-    ``depth`` bounds the steps of a search; ``timeout`` is in seconds, for each property; ``profile`` is
+    ``depth`` bounds the steps of a search; ``timeout`` is in seconds, for each property; ``until`` is when,
+    on the monotonic clock, the time of all properties that are asked for is over; ``profile`` is
     the model's table of a profile, ``None`` where the user gave none, ``judged`` what that table breaks.
     """
 
@@ -33,6 +36,22 @@ class Request:
     timeout: float | None = None
     profile: Mapping[str, Any] | None = None
     judged: Sequence[ProfileFinding] = ()
+    until: float = math.inf
+
+    def begun(self, claims: int) -> Request:
+        """The request with its time running: that of so many properties."""
+        return self if self.timeout is None else replace(self, until=time.monotonic() + self.timeout * claims)
+
+    @property
+    def over(self) -> bool:
+        """Whether its time is over."""
+        return time.monotonic() >= self.until
+
+    def seconds_for(self, claims: int) -> float | None:
+        """The seconds that a search for so many claims may take; ``None`` where there is no limit."""
+        if self.timeout is None:
+            return None
+        return max(0.0, min(self.timeout * claims, self.until - time.monotonic()))
 
     def asks_for(self, claim: Claim) -> bool:
         """Whether the claim is among the properties that are named; where none is, all are."""

@@ -5,8 +5,10 @@ Claims to which the same variables matter are settled in one search, of the part
 
 from __future__ import annotations
 
+import time
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import takewhile
 
 from mmsverify.checking.profile_facts import applies
 from mmsverify.checking.request import Progress, Request
@@ -74,7 +76,7 @@ class Explorer:
         for world in worlds:
             scope = world.scope(self.model, few)
             open_here = [c for c in claims if c.name not in self.runs and self._concerns(scope, c)]
-            for group in alike(self.model, open_here):
+            for group in self._groups(open_here):
                 self._tell(scope, group)
                 self._search(scope, group, states)
 
@@ -82,29 +84,30 @@ class Explorer:
         """Look for witnesses, not the shortest, in a world; ``together``: of all claims in one search."""
         scope = world.scope(self.model)
         left = [c for c in claims if c.name not in self.runs and self._concerns(scope, c)]
-        groups = [left] if together and left else list(alike(self.model, left))
-        for group in groups:
+        for group in [left] if together and left else self._groups(left):
             self._tell(scope, group)
+            begin = time.monotonic()
             part = sliced(self.model, group)
             machine = Machine(part, replace(narrowed(part, scope), largest_set=LARGEST_SET))
             possible = [claim for claim in group if not machine.out_of_reach(claim)]
             if possible:
-                depth, seconds = self.request.depth, self.request.timeout
+                depth, seconds = self.request.depth, self.request.seconds_for(len(possible))
                 result = reach(machine, possible, max_states=states, max_depth=depth, max_seconds=seconds)
-                self._witnessed(scope, possible, result)
+                for claim in possible:
+                    if claim.name in result.witnesses:
+                        self._believe(scope, claim, result.witnesses[claim.name])
+            self._spent(group, begin)
 
-    def _witnessed(self, scope: Scope, claims: Sequence[Claim], result: SearchResult) -> None:
-        for claim in claims:
-            self._spent(claim, result.seconds / len(claims))
-            if claim.name in result.witnesses:
-                self._believe(scope, claim, result.witnesses[claim.name])
+    def _groups(self, claims: Sequence[Claim]) -> Iterator[list[Claim]]:
+        """The claims that are alike, as long as there is time."""
+        return takewhile(lambda _: not self.request.over, alike(self.model, claims))
 
     def shorten(self, claims: Sequence[Claim], worlds: Iterable[World], *, states: int) -> None:
         """Look for shorter counterexamples than those found, in worlds where the claims were not refuted."""
         for world in worlds:
             scope = world.scope(self.model)
             known = [c for c in claims if c.name in self.runs and self.runs[c.name].facts != scope.facts]
-            for group in alike(self.model, known):
+            for group in self._groups(known):
                 self._search(scope, group, states, max(self.runs[c.name].length for c in group) - 1)
 
     def _concerns(self, scope: Scope, claim: Claim) -> bool:
@@ -119,7 +122,11 @@ class Explorer:
             self.progress(f"{self.model.name}: {scope}: looking for runs, {len(group)} properties open")
 
     def _search(self, scope: Scope, group: Sequence[Claim], states: int, longest: int | None = None) -> None:
-        depth = self.request.depth if longest is None else longest
+        begin = time.monotonic()
+        self._settle(scope, group, states, self.request.depth if longest is None else longest)
+        self._spent(group, begin)
+
+    def _settle(self, scope: Scope, group: Sequence[Claim], states: int, depth: int | None) -> None:
         part = sliced(self.model, group)
         tight = narrowed(part, scope)
         machine = Machine(part, tight)
@@ -131,10 +138,9 @@ class Explorer:
             return
         result = search(
             part, tight, claims=group, machine=machine, symmetry=True,
-            max_states=states, max_depth=depth, max_seconds=self.request.timeout,
+            max_states=states, max_depth=depth, max_seconds=self.request.seconds_for(len(group)),
         )  # fmt: skip
         for claim in group:
-            self._spent(claim, result.seconds / len(group))
             self._keep(scope, claim, result)
 
     def _keep(self, scope: Scope, claim: Claim, result: SearchResult) -> None:
@@ -147,8 +153,11 @@ class Explorer:
             return
         self._believe(scope, claim, short)
 
-    def _spent(self, claim: Claim, seconds: float) -> None:
-        self.seconds[claim.name] = self.seconds.get(claim.name, 0.0) + seconds
+    def _spent(self, claims: Sequence[Claim], begin: float) -> None:
+        """Share what a search took since it began among its claims."""
+        share = (time.monotonic() - begin) / len(claims)
+        for claim in claims:
+            self.seconds[claim.name] = self.seconds.get(claim.name, 0.0) + share
 
     def _believe(self, scope: Scope, claim: Claim, short: Path) -> None:
         """Keep a run of a part of the model once the whole model has taken it again."""

@@ -64,6 +64,7 @@ def undecided(
     deepest = max((s.depth for s in searches), default=None)
     scope = searches[-1].scope if searches else any_number(model)
     method = "bmc" if searches else "induction"
+    parts = parts or ["the time limit was reached before a run was looked for"]
     return _verdict(claim, "unknown", method, scope, seconds, depth=deepest, reason="; ".join(parts))
 
 
@@ -84,6 +85,8 @@ def _standing_in_the_way(obstacles: Sequence[Obstacle]) -> list[str]:
     if not obstacles:
         return []
     rows = list(dict.fromkeys(o.row or "the initial state" for o in obstacles))
+    if any(o.answer == "timeout" for o in obstacles):
+        return ["the time limit was reached before it was proved"]
     if any(o.answer != "sat" for o in obstacles):
         return [f"the solver gave no answer for {', '.join(rows)}"]
     return [f"not inductive: {', '.join(rows)} may break it, from a state that may be out of reach"]

@@ -29,7 +29,7 @@ Unbounded = Annotated[bool, typer.Option("--unbounded", help="Only proofs for an
 Depth = Annotated[int | None, typer.Option("--depth", metavar="N", min=0, help="At most N steps.")]
 Timeout = Annotated[
     float | None,
-    typer.Option("--timeout", metavar="S", help="Seconds after which a property is unknown."),
+    typer.Option("--timeout", metavar="S", help="Seconds for each property; it is unknown then."),
 ]
 Counterexamples = Annotated[
     Path | None,

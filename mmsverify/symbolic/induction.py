@@ -7,6 +7,7 @@ own. A dropped claim is not refuted; that takes a run (bounded search).
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
@@ -24,7 +25,8 @@ from mmsverify.symbolic.translate import Translator, obligation
 class Obstacle:
     """Why a claim is not inductive.
 
-    ``row`` may break it (``None``: the start does), ``answer`` is how Z3 ended: ``sat`` or ``unknown``.
+    ``row`` may break it (``None``: the start does), ``answer`` is how Z3 ended: ``sat`` or ``unknown``, or
+    ``timeout`` where the time of all proofs was over.
     """
 
     claim: str
@@ -44,12 +46,23 @@ class Induction:
 
 
 class Prover:
-    """Discharges initiation and consecution with one incremental solver a model."""
+    """Discharges initiation and consecution with one incremental solver a model.
 
-    def __init__(self, model: ModelData, *, timeout: float = 10.0, facts: Sequence[Expr] = ()) -> None:
+    ``timeout``: seconds for one question; ``until``: when, on the monotonic clock, no more is asked.
+    """
+
+    def __init__(
+        self,
+        model: ModelData,
+        *,
+        timeout: float = 10.0,
+        facts: Sequence[Expr] = (),
+        until: float = math.inf,
+    ) -> None:
         self.model = model
         self.translator = Translator(model)
         self.timeout = timeout
+        self.until = until
         self.base = [c.condition for c in model.assumptions] + list(facts)
         self.queries = 0
 
@@ -86,6 +99,8 @@ class Prover:
         self, solver: z3.Solver, row: Row, claims: Sequence[Claim], outcome: Induction
     ) -> list[Claim]:
         """The claims that the row may break: one query for all of them, and one each where that fails."""
+        if self._over():
+            return self._unasked(row, claims, outcome)
         goals = [(c, obligation(c, row)) for c in claims if may_break(row, c)]
         goals = [(c, goal) for c, goal in goals if goal != ex.TRUE]
         if not goals:
@@ -106,6 +121,8 @@ class Prover:
         self, outcome: Induction, solver: z3.Solver, claim: Claim, row: Row | None, goal: Expr
     ) -> bool:
         """Whether the goal may fail; the obstacle is kept."""
+        if self._over():
+            return bool(self._unasked(row, [claim], outcome))
         begin = time.perf_counter()
         answer = self._holds(solver, goal)
         outcome.seconds[claim.name] = outcome.seconds.get(claim.name, 0.0) + time.perf_counter() - begin
@@ -115,6 +132,16 @@ class Prover:
         found = Obstacle(claim.name, row.id if row else None, str(answer), state)
         outcome.obstacles.setdefault(claim.name, []).append(found)
         return True
+
+    def _over(self) -> bool:
+        return time.monotonic() >= self.until
+
+    def _unasked(self, row: Row | None, claims: Sequence[Claim], outcome: Induction) -> list[Claim]:
+        """Every claim may fail where there is no time left to ask."""
+        for claim in claims:
+            found = Obstacle(claim.name, row.id if row else None, "timeout")
+            outcome.obstacles.setdefault(claim.name, []).append(found)
+        return list(claims)
 
     def _holds(self, solver: z3.Solver, goal: Expr) -> z3.CheckSatResult:
         """Ask for a state in which the goal fails: ``unsat`` means that it holds."""
@@ -128,7 +155,8 @@ class Prover:
 
     def _solver(self, formulas: Sequence[Expr]) -> z3.Solver:
         solver = z3.Solver()
-        solver.set("timeout", max(1, int(self.timeout * 1000)))
+        left = min(self.timeout, self.until - time.monotonic())
+        solver.set("timeout", max(1, int(left * 1000)))
         solver.add(*(self.translator.formula(f) for f in formulas), *self.translator.bounds())
         return solver
 

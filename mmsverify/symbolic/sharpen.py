@@ -14,6 +14,9 @@ from mmsverify.model import expr as ex
 from mmsverify.model.expr import Expr, Ref
 from mmsverify.model.rows import Claim
 
+ASSISTS = "!"
+"""Parts the name of a claim from the number of one that is made of it."""
+
 _FEWEST, _MOST_DROPPED = 1, 2
 
 
@@ -25,7 +28,8 @@ def sharpened(claims: Iterable[Claim]) -> Iterator[Claim]:
             for number, formula in enumerate(_stronger(claim.formula)):
                 if formula not in known:
                     known.add(formula)
-                    yield Claim(f"{claim.name}!{number}", "always", claim.clause, formula, assists=True)
+                    name = f"{claim.name}{ASSISTS}{number}"
+                    yield Claim(name, "always", claim.clause, formula, assists=True)
 
 
 def _stronger(formula: Expr) -> Iterator[Expr]:

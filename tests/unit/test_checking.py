@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from pathlib import Path
 from typing import Any
 
@@ -138,8 +139,8 @@ def test_an_unknown_property_like_no_other_is_refused_with_some_names_only() -> 
 
 
 def test_properties_that_a_profile_leaves_out_are_named() -> None:
-    found = check("mms-robot", properties=["one-holder", "runs-steps"], profile=Path("no-step"))
-    assert ([v.name for v in found.verdicts], found.left_out) == (["one-holder"], ("runs-steps",))
+    found = check("mms-robot", properties=["power-comes", "runs-steps"], profile=Path("no-step"))
+    assert ([v.name for v in found.verdicts], found.left_out) == (["power-comes"], ("runs-steps",))
 
 
 def test_a_check_of_which_a_profile_leaves_nothing_is_refused() -> None:
@@ -164,6 +165,31 @@ def test_the_same_check_gives_the_same_verdicts(lamps: str) -> None:
         for _ in range(2)
     ]
     assert told[0] == told[1]
+
+
+@pytest.mark.parametrize("scope", [None, {"PI": 2}])
+def test_a_time_limit_is_kept_from_the_first_proofs_on(scope: dict[str, int] | None) -> None:
+    begin = time.process_time()
+    found = check("mms-robot", timeout=1e-4, scope=scope)
+    assert time.process_time() - begin < 5  # the proofs alone take more without a limit
+    assert "unknown" in {v.result for v in found.verdicts}
+    assert all(v.reason for v in found.verdicts if v.result == "unknown")
+    assert "the time limit was reached: what is open was not looked into further" in found.notes
+
+
+def test_a_time_limit_that_is_not_reached_changes_nothing(lamps: str) -> None:
+    def told(**options: Any) -> list[tuple[str, str, str]]:
+        return [(v.name, v.result, v.method) for v in check(lamps, **options).verdicts]
+
+    assert told(timeout=100.0) == told()
+
+
+@pytest.mark.parametrize("properties", [[], ["lit-is-known"], ["one-lit", "some-lit"]])
+def test_seconds_add_up_to_the_time_of_the_check(lamps: str, properties: list[str]) -> None:
+    begin = time.monotonic()
+    found = check(lamps, properties=properties)
+    elapsed = time.monotonic() - begin
+    assert elapsed / 2 < sum(v.seconds for v in found.verdicts) <= elapsed
 
 
 def test_progress_is_told(lamps: str) -> None:
