@@ -18,13 +18,14 @@ from mmsverify.symbolic.consistency import contradicted
 # invocation for its arm, by its standardized name (8.3.1) or at all (6.3.2.2).
 NEVER_IDLE = {"idle-reached", "t02-clear", "t10-clear-abort", "t11-clear-abandon", "clear-by-reset"}
 AT_ONCE = {"t01-load", "loaded-at-the-panel"}
-SINGLE = {"several-are-associated"}
+SINGLE = {"several-are-associated", "hangs-after-time", "ownership-ends-in-time"}
 SEVERAL_TASKS = {"load-and-assign"}
 NO_STEPS = {"runs-steps", "steps-end"}
 NO_R_ARM = {"arm-stops-running"}
+NO_ARM_PROGRAM = {"stops-by-arm", "arm-rests-after-stop"}
 EXCEPTED = {
     "multi-client": SEVERAL_TASKS,
-    "no-controlled": SINGLE | SEVERAL_TASKS | NO_R_ARM | {"stops-by-arm"},
+    "no-controlled": SINGLE | SEVERAL_TASKS | NO_R_ARM | NO_ARM_PROGRAM,
     "no-step": SINGLE | SEVERAL_TASKS | NO_STEPS,
     "one-program": SINGLE | AT_ONCE,
     "predefined-task": SINGLE | SEVERAL_TASKS | NEVER_IDLE | AT_ONCE,
