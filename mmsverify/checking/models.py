@@ -26,7 +26,7 @@ from mmsverify.symbolic.overlap import Coverage
 FIRST_LOOK, SECOND_LOOK, LONG_LOOK, WHOLE_SCOPE = 40_000, 100_000, 400_000, 200_000
 """States to see in a world: between attempts at a proof, each harder than the last; in a scope asked for."""
 
-FAR_LOOKS = (8_000, 40_000, 200_000)
+FAR_LOOKS = (8_000, 60_000, 250_000)
 """States to see in a world while witnesses under a profile are looked for: of all claims at once, then of
 those to which the same variables matter."""
 
