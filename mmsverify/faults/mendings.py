@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
 from mmsverify.checking.proofs import Proofs
 from mmsverify.checking.runs import Run
@@ -32,9 +32,12 @@ class Mended:
         )
         watched = ex.variables_of(claim.formula)
         for run in runs:
-            told += last_parting(self.model, run.world, run.path, watched)
+            told += self._partings(run, watched) or self._partings(run, self.model.signatures.keys())
         for parting in {(p.declared, p.step): p for p in reversed(told)}.values():
             yield self._mending(parting)
+
+    def _partings(self, run: Run, watched: Collection[str]) -> list[Parting]:
+        return last_parting(self.model, run.world, run.path, watched)
 
     def _mending(self, parting: Parting) -> Mending:
         """The reading of the step where it has one of its own, else that of the declaration."""
