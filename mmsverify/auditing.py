@@ -13,7 +13,7 @@ from typing import Any
 from mmsverify.audit.annotate import annotate
 from mmsverify.audit.replay import Replay
 from mmsverify.audit.spoken import Listener
-from mmsverify.errors import InputError, MmsverifyError
+from mmsverify.errors import InputError, MmsverifyError, ProfileError
 from mmsverify.events import MmsEvent
 from mmsverify.formats.mcap import McapTrace, read_trace
 from mmsverify.profiles import from_metadata, load_profile
@@ -42,10 +42,10 @@ def audit_traces(
             progress(f"auditing {path}")
         try:
             trace = read_trace(path)
-        except InputError as error:
+            merged = tables if profile is not None else {**tables, **from_metadata(trace.profile, str(path))}
+        except (InputError, ProfileError) as error:
             findings.append(_unreadable(path, error))
             continue
-        merged = tables if profile is not None else {**tables, **from_metadata(trace.profile, str(path))}
         entry, found = _audit(trace, merged, model, variant)
         inputs.append(entry)
         findings += found
@@ -70,10 +70,13 @@ def _audit(
 
 
 def _findings(replay: Replay, path: Path) -> Iterator[Finding]:
-    """What the replay finds, up to the point at which the recording cannot be read on."""
+    """What the replay finds, up to the point at which the recording cannot be read on.
+
+    Nor is it read on where its profile turns out to be that of no possible robot.
+    """
     try:
         yield from replay.run()
-    except InputError as error:
+    except (InputError, ProfileError) as error:
         yield _unreadable(path, error)
 
 

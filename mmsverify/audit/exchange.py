@@ -41,7 +41,8 @@ class Association:
 
     ``begun``: the recording shows it from its Initiate on, without a gap. ``proposed``: the Initiate that
     waits for its answer. ``_hidden``: requests whose invokeID was used again before their answer, which may
-    still come. ``alarm``: what the last message told that stops the robot, if it did.
+    still come. ``_overdue``: the indices of requests that were told of as outstanding beyond what was agreed; they
+    are told of once, for their answers may be lost. ``alarm``: what the last message told that stops the robot, if it did.
     """
 
     def __init__(self, name: str) -> None:
@@ -50,6 +51,7 @@ class Association:
         self.negotiated: Negotiated | None = None
         self.asked: dict[tuple[str, int], Asked] = {}
         self._hidden: dict[tuple[str, int], Asked] = {}
+        self._overdue: set[int] = set()
         self.proposed: Mapping[str, Any] | None = None
         self.alarm = ""
         self._missing: Breach | None = None
@@ -71,6 +73,7 @@ class Association:
         lost = list(self.asked.values())
         self.asked.clear()
         self._hidden.clear()
+        self._overdue.clear()
         self._cancels.clear()
         self.begun, self.alarm = False, ""
         self._missing = self._concluding = None
@@ -146,8 +149,10 @@ class Association:
             self._hidden[key] = earlier
             words: dict[str, Any] = {"invoke": pdu.invoke_id, "first": earlier.index}
             return asked, [Breach("protocol.invoke-id-reused", words, (earlier.index,))]
-        if limit is not None and len(waiting) == limit:
-            words = {"count": limit + 1, "side": side, "limit": limit}
+        missed = [a for a in waiting if a.index not in self._overdue]
+        if limit is not None and len(missed) >= limit:
+            self._overdue.update({index, *(a.index for a in missed)})
+            words = {"count": len(waiting) + 1, "side": side, "limit": limit}
             return asked, [Breach("protocol.too-many-outstanding", words, tuple(a.index for a in waiting))]
         return asked, []
 

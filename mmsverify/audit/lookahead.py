@@ -2,7 +2,7 @@
 
 Where a recording begins in mid-operation or has a gap, requests may wait that it does not show. Such a
 request may be performed at any instant until its answer; until the last of these answers, nothing is known
-of the robot's state (RP-31).
+of the robot's state (RP-31). Only requests that may change it matter.
 """
 
 from __future__ import annotations
@@ -22,8 +22,10 @@ from mmsverify.formats.mms import Pdu
 from mmsverify.formats.trace import TraceMessage
 
 INITIATES = (b"\xa8", b"\xa9")
-ENDS = ANSWERS | {"rejectPDU"}
-"""PDUs after which a request waits no more."""
+WAITS = 100
+"""So many messages of its association a request that is missing may wait for its answer; a later answer is astray."""
+INQUIRIES = ("get", "identify", "read", "report", "status")
+"""So begin the names of the services that change nothing."""
 
 Key = tuple[str, str]
 """A device and an association of it."""
@@ -33,25 +35,39 @@ Span = tuple[int, int]
 
 @dataclass
 class _Requests:
-    """The requests of one association; ``since``: from that index on, messages before it are missing."""
+    """The requests of one association; ``since``: from that index on, messages before it are missing.
+
+    ``heard`` counts its messages from there.
+    """
 
     since: int | None = 0
     shown: set[tuple[str, int]] = field(default_factory=set)
+    heard: int = 0
 
     def begin(self, since: int | None) -> None:
         """A gap, or an association that the recording shows as a whole (``None``)."""
-        self.since = since
+        self.since, self.heard = since, 0
         self.shown.clear()
 
+    def hears(self) -> bool:
+        """Whether one more message may be the answer to a request that is missing."""
+        self.heard += 1
+        return self.since is not None and self.heard <= WAITS
+
     def answers_unseen(self, sender: str, pdu: Pdu) -> bool:
-        """Whether it is the answer to a request that is missing: its invokeID has not been used since."""
+        """Whether it is the answer to a missing request that may have changed the robot's state.
+
+        The invokeID of such a request has not been used since.
+        """
         if pdu.invoke_id is None:
             return False
         if pdu.kind == "confirmed-RequestPDU":
             self.shown.add((sender, pdu.invoke_id))
             return False
         key = OTHER_SIDE[sender], pdu.invoke_id
-        return pdu.kind in ENDS and key not in self.shown
+        # An error does not say of which service, and one that fails may leave a transient state.
+        asks_only = pdu.service is not None and pdu.service.startswith(INQUIRIES)
+        return pdu.kind in ANSWERS and not asks_only and key not in self.shown
 
 
 class Lookahead:
@@ -90,10 +106,10 @@ class Lookahead:
             return
         if key in self._begun and not self._begun[key] and _may_have_detail(message.data):
             self._begun[key] = _has_detail(message.data)
-        if requests.since is not None:
+        if requests.hears():
             for pdu in _decoded(message.data):
                 if requests.answers_unseen(message.metadata.get("sender", "client"), pdu):
-                    self._blind[key].append((requests.since, message.index))
+                    self._blind[key].append((requests.since or 0, message.index))
 
 
 def link(message: TraceMessage) -> tuple[str, str] | None:

@@ -48,6 +48,16 @@ def test_one_request_too_many_is_told_once() -> None:
     assert told == [[], ["protocol.too-many-outstanding"], []]
 
 
+def test_a_lost_answer_is_told_once_as_a_request_too_many() -> None:
+    made = association(outstanding=1)
+    made.request(0, "client", request(1, "status", False))
+    told = []
+    for n in range(1, 5):
+        told += rules(made.request(n, "client", request(n + 1, "status", False))[1])
+        made.answer("server", response(n + 1, "status"))
+    assert told == ["protocol.too-many-outstanding"]
+
+
 def test_slots_are_free_again() -> None:
     made = association()
     first, _ = made.request(0, "client", request(1, "status", False))

@@ -82,6 +82,22 @@ def test_what_a_recording_lacks_may_be_performed_until_it_is_answered(listen: Li
     assert rules(listen(made.recording)) == []
 
 
+def test_an_inquiry_that_a_recording_lacks_explains_nothing(listen: Listen) -> None:
+    made = cell(begun=False)
+    moved_unasked(made)
+    made.recording.say(made.name, "server", Pdu("confirmed-ResponsePDU", 99, "read", {"listOfAccessResult": []}))
+    assert (3, "status.robot-state") in rules(listen(made.recording))
+
+
+def test_an_answer_is_not_waited_for_without_end(listen: Listen) -> None:
+    made = cell(begun=False)
+    moved_unasked(made)
+    for _ in range(50):
+        made.status(EXECUTING, "TASK")
+    made.recording.say(made.name, "server", Pdu("confirmed-ResponsePDU", 9999, "start", None))
+    assert rules(listen(made.recording)) == [(3, "status.robot-state")]
+
+
 def test_what_was_answered_already_is_not_performed_again_unseen(listen: Listen) -> None:
     made = cell(begun=False)
     asked = made.ask("kill", {"programInvocationName": "OTHER"})
@@ -281,4 +297,18 @@ def test_a_damaged_recording_does_not_keep_others_from_being_audited(tmp_path: P
     bad.write_bytes(octets)
     audit = audit_traces([bad, good], profile=None, model=None)
     assert [Path(entry.path).name for entry in audit.inputs][-1] == "good.mcap"
+    assert [(f.rule, Path(f.path).name) for f in audit.findings] == [("input.unreadable", "bad.mcap")]
+
+
+@pytest.mark.parametrize("profile", [{"arms": "17"}, {"predefind": "[]"}, {"select_robot": "maybe"}])
+def test_a_recording_with_a_bad_profile_does_not_keep_others_from_being_audited(
+    tmp_path: Path, profile: dict[str, str]
+) -> None:
+    good, bad = tmp_path / "good.mcap", tmp_path / "bad.mcap"
+    made = cell()
+    made.status(LOADED)
+    made.recording.write(good, None)
+    made.recording.write(bad, {"model": "mms-robot", **profile})
+    audit = audit_traces([bad, good], profile=None, model=None)
+    assert [Path(entry.path).name for entry in audit.inputs] == ["good.mcap"]
     assert [(f.rule, Path(f.path).name) for f in audit.findings] == [("input.unreadable", "bad.mcap")]
