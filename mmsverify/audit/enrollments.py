@@ -21,12 +21,16 @@ LARGEST_WATCH = 30
 
 @dataclass(slots=True)
 class Cause:
-    """One occurrence as it comes about, from message to message."""
+    """One occurrence as it comes about, from message to message.
+
+    ``just_now``: it has certainly occurred by what the last message brought about, and cannot have before.
+    """
 
     occurrence: Occurrence
     to_come: bool = False
     come: bool = False
     surely_to_come: bool = False
+    just_now: bool = False
     _earlier: int = EITHER
     _states: list[Partial] = field(default_factory=list)
 
@@ -53,6 +57,9 @@ class Cause:
         self._earlier = now
         occurred = self.surely_to_come and now == NO and then == YES
         self.surely_to_come = self.surely_to_come and not occurred
+        self.just_now = (
+            occurred and not belief.shown and not belief.preceded(self._side(before=False))
+        )
         return occurred
 
     def founded(self, belief: Belief) -> bool:
@@ -115,8 +122,8 @@ class Enrollment:
         occurred = [cause for cause in self.causes if cause.note(belief)]
         if not occurred:
             return False
-        if not belief.shown:
-            belief.watch(self.slot)  # it has occurred just now: what the action shows is no older
+        if all(cause.just_now for cause in occurred):
+            belief.watch(self.slot)  # what the action shows is no older
         if self.due is not None:
             return True
         self.due, self.waited = message, 0

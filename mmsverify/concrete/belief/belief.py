@@ -11,7 +11,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import reduce
 from operator import or_
-from typing import Any
+from typing import Any, Literal
 
 from mmsverify.concrete.belief.act import Refusal, settle, take
 from mmsverify.concrete.belief.blame import Blame, before, blame
@@ -79,6 +79,7 @@ class Belief:
         self._unsure: set[str] = set()
         self._watches: dict[str, Watch] = {}
         self._shown: Goal | None = None
+        self._performed_in: tuple[Goal, str, Sequence[Partial]] | None = None
         self._know(facts or {})
 
     def _know(self, facts: Mapping[Key, Any]) -> None:
@@ -136,9 +137,24 @@ class Belief:
 
     def attains(self, row: Row) -> bool:
         """Whether what a row shows may hold by now, with all that may have happened unseen."""
+        return bool(self._reached(row, self.states, "observation"))
+
+    def preceded(self, row: Row) -> bool:
+        """Whether it may have held already when the service was performed that has just been answered."""
+        if self._performed_in is None:
+            return True
+        goal, slot, ready = self._performed_in
+        if any(decided(state, slot) is not None for state in ready):
+            return True
+        guards = [self.ground.formula(each.guard_formula, goal.env) for each in goal.rows]
+        held = self._reached(row, ready, "answer")
+        return any(self._assumed(guard, state) for guard in guards for state in held)
+
+    def _reached(
+        self, row: Row, states: Sequence[Partial], evidence: Literal["answer", "observation"]
+    ) -> list[Partial]:
         goal = Goal([row], {}, self.made)
-        ready = self.unseen.before(self.states, "observation", self._outstanding, goal)
-        return bool(self._agreeing(goal, ready)[0])
+        return self._agreeing(goal, self.unseen.before(states, evidence, self._outstanding, goal))[0]
 
     @property
     def shown(self) -> bool:
@@ -167,7 +183,7 @@ class Belief:
 
     def listen(self) -> None:
         """A message comes: nothing has been shown by it yet."""
-        self._shown = None
+        self._shown = self._performed_in = None
 
     def indicate(self, slot: str, service: str, bindings: Mapping[str, Any]) -> None:
         """A request arrives; it is outstanding from now on.
@@ -227,6 +243,7 @@ class Belief:
         goal = Goal(rows, env, self.made)
         ready = self.unseen.before(self.states, "answer", self._others(slot), goal)
         earlier = self.states
+        self._performed_in = goal, slot, ready
         after, refusals = self._answered(goal, ready, slot, answer)
         if slot in self._unsure:
             self._unsure.discard(slot)
