@@ -32,7 +32,11 @@ Told = Iterator[Finding | Breach]
 
 
 class Notifications:
-    """The event enrollments of one device, and what is notified of them."""
+    """The event enrollments of one device, and what is notified of them.
+
+    ``_unsettled``: requests about enrollments that wait, with their associations; ``_mingled``: those of them that
+    waited beside another one, which may have been performed before or after.
+    """
 
     def __init__(self, belief: Belief, showing: Showing) -> None:
         self._belief = belief
@@ -41,6 +45,7 @@ class Notifications:
         self._deleted: dict[str, str] = {}
         self._disabled: set[str] = set()
         self._unsettled: dict[str, str] = {}
+        self._mingled: set[str] = set()
 
     # What is enrolled.
 
@@ -48,7 +53,10 @@ class Notifications:
         """A client asks for something: it may be performed long before the answer."""
         if asked.pdu.service in ENROLLING:
             self._belief.watch(asked.slot)
+            self._mingled.discard(asked.slot)
             self._unsettled[asked.slot] = association
+            if len(self._unsettled) > 1:
+                self._mingled |= self._unsettled.keys()
 
     def answered(self, association: str, asked: Asked, pdu: Pdu, *, listens: bool, disturbed: bool) -> None:
         """The robot answers; ``listens``: the client takes notifications.
@@ -59,18 +67,18 @@ class Notifications:
         if self._unsettled.pop(asked.slot, None) is None:
             return
         if pdu.kind == "confirmed-ResponsePDU":
-            self._performed(association, asked.pdu, pdu, listens)
+            self._performed(association, asked, pdu, listens)
         for enrollment in self._enrolled.values() if disturbed else ():
             enrollment.doubt()
             self._belief.undisturbed(enrollment.slot)
 
-    def _performed(self, association: str, request: Pdu, answer: Pdu, listens: bool) -> None:
-        body = request.body
-        match request.service:
+    def _performed(self, association: str, asked: Asked, answer: Pdu, listens: bool) -> None:
+        body = asked.pdu.body
+        match asked.pdu.service:
             case "defineEventEnrollment":
                 self._define(association, body, listens)
             case "deleteEventEnrollment":
-                self._delete(association, body, answer.body)
+                self._delete(association, body, certain=answer.body == 0 and asked.slot not in self._mingled)
             case "alterEventEnrollment" if "eventConditionTransitions" in body:
                 known = self._enrolled.get(plain_name(body["eventEnrollmentName"]))
                 if known is not None:
@@ -95,13 +103,13 @@ class Notifications:
         self._enrolled[name] = made
         made.begin(self._belief)
 
-    def _delete(self, association: str, body: tuple[str, Any], left: int) -> None:
-        """Which ones are deleted is certain only where they are named and none is left."""
+    def _delete(self, association: str, body: tuple[str, Any], *, certain: bool) -> None:
+        """Which ones are deleted is certain only where they are named, none is left and none made meanwhile."""
         kind, content = body
         named = {plain_name(name) for name in content} if kind == "specific" else set(self._enrolled)
         for name in named:
             self._enrolled.pop(name, None)
-            if kind == "specific" and left == 0:
+            if kind == "specific" and certain:
                 self._deleted[name] = association
 
     def lose(self) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from mmsverify.audit import robot
+from mmsverify.audit import robot, variables
 from mmsverify.audit.acquaintance import Acquaintance
 from mmsverify.audit.exchange import Asked
 from mmsverify.audit.rules import Breach
@@ -55,7 +55,9 @@ class Performing:
         told since the request.
         """
         self._acquaintance.expect(call, settled=True)
-        if pdu.kind == "confirmed-ResponsePDU":
+        if call.service == "write" and pdu.kind == "confirmed-ResponsePDU":
+            yield from self._written(association, asked, call, pdu, message)
+        elif pdu.kind == "confirmed-ResponsePDU":
             yield from self._accepted(association, asked, call, message)
         else:
             yield from self._refused(association, asked, call, pdu, message)
@@ -71,6 +73,16 @@ class Performing:
             words = {"service": title(call.service), "pi": call.bindings["pi"]}
             yield Breach(rule, words, (asked.index,))
         self._acquaintance.meet(call)
+
+    def _written(
+        self, association: str, asked: Asked, call: robot.Call, pdu: Pdu, message: TraceMessage
+    ) -> Iterator[Finding | Breach]:
+        """The answer to Write tells of each variable by itself; none written is a refusal."""
+        if any(result == "success" for result, _ in pdu.body):
+            yield from self._accepted(association, asked, call, message)
+        else:
+            self._belief.drop(asked.slot)
+        yield from variables.written(asked.pdu.body, pdu.body)
 
     def _refused(
         self, association: str, asked: Asked, call: robot.Call, pdu: Pdu, message: TraceMessage

@@ -69,7 +69,7 @@ def _arguments(pdu: Pdu, arms: frozenset[str]) -> dict[str, Any] | None:
             }
         case "alterPI":
             return {"pi": body["programInvocation"], **_limit(body["startCount"])}
-        case "vMDStop" | "vMDReset":
+        case "vMDStop" | "vMDReset" | "write":
             return {}
         case "takeControl" | "relinquishControl":
             return _taking(body) if plain_name(body["semaphoreName"]) == words.SEMAPHORE else None

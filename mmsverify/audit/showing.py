@@ -39,8 +39,6 @@ class Showing:
                 for call in robot.shown_of_semaphore(asked.pdu, pdu):
                     yield from self._shown(message, str(asked.pdu.service), call, asked.slot)
                 self._belief.drop(asked.slot)
-            case "write":
-                yield from variables.written(asked.pdu.body, pdu.body)
 
     def refused(self, asked: Asked, pdu: Pdu, message: TraceMessage) -> Iterator[Finding]:
         """The negative answer to such a service: that an object is not there shows something, too."""

@@ -24,6 +24,8 @@ FLAGS = {
 }
 TELLS_STATE = frozenset({"start", "stop", "resume", "reset"})
 OUTSTANDING = 5
+WRITTEN = "AUXILIARY"
+"""A variable of the robot's own: the standard's need not be there."""
 SEMAPHORE = ("vmd-specific", words.SEMAPHORE)
 
 
@@ -65,6 +67,10 @@ def _asked(service: str, given: Arguments) -> tuple[Any, Any]:
                 "specificationWithResult": False,
                 "variableAccessSpecification": ("listOfVariable", asked),
             }, None
+        case "write":
+            named = [{"variableSpecification": ("name", ("vmd-specific", WRITTEN))}]
+            access = {"variableAccessSpecification": ("listOfVariable", named)}
+            return {**access, "listOfData": [("boolean", True)]}, None
     return domain_messages.asked(service, given), None
 
 
@@ -133,6 +139,8 @@ def _answered(service: str, given: Arguments, after: State) -> tuple[Any, Any]:
             return _status(after), robot_status(after)
         case "takeControl":
             return ("noResult", None), None
+        case "write":
+            return [("success", None)], None
         case "reportSemaphoreStatus":
             owned = sum(bool(held) for cell, held in after.items() if cell.startswith("holder["))
             tokens = {"numberOfOwnedTokens": owned, "numberOfHungTokens": int(after["hung"])}

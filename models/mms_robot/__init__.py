@@ -4,6 +4,7 @@
 that it mends and the reason. One file per clause group; the text and its repair stand together.
 """
 
+from .access import Access, AccessRepaired
 from .associations import Associations, AssociationsRepaired
 from .attributes import Attributes
 from .consequences import CONSEQUENCES
@@ -32,7 +33,7 @@ VIEWS = {"robot state": "robot_state", "program invocation": "state"}
 
 
 class AsWritten(
-    Programs, Selection, Execution, Vmd, Associations, Domains, Devices, Observations,
+    Programs, Selection, Execution, Vmd, Access, Associations, Domains, Devices, Observations,
     Properties, DeviceProperties, Services, Attributes, Outcomes, Transfers, Figure8, Transitions, Events,
     name="mms-robot", variant="as-written", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
     consequences=CONSEQUENCES, named=named,
@@ -41,8 +42,8 @@ class AsWritten(
 
 
 class Repaired(
-    ProgramsRepaired, SelectionRepaired, ExecutionRepaired, VmdRepaired, AssociationsRepaired, DomainsRepaired, Devices, Observations,
-    PropertiesRepaired, DeviceProperties, Services, Attributes, OutcomesRepaired, TransfersRepaired, Figure8Repaired, TransitionsRepaired, Events,
+    ProgramsRepaired, SelectionRepaired, ExecutionRepaired, VmdRepaired, AccessRepaired, AssociationsRepaired, DomainsRepaired,
+    Devices, Observations, PropertiesRepaired, DeviceProperties, Services, Attributes, OutcomesRepaired, TransfersRepaired, Figure8Repaired, TransitionsRepaired, Events,
     name="mms-robot", variant="repaired", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
     consequences=CONSEQUENCES, named=named,
 ):  # fmt: skip
