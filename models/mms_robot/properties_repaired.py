@@ -30,11 +30,16 @@ class PropertiesRepaired(Properties, VocabularyRepaired):
     list_of_selected = Assume("R-7.4.4.2-i", for_all(a, c)(predefined_controls[a, c] >> selected_at_power_on[a]), "R-7.4.4.2-f2",
                               repairs=repaired("RP-30", "R-7.4.4.2-i", because="the list of one that is not selected would stand for ever, and keep it from being selected"))  # fmt: skip
 
-    lists_end = Always("R-6.3.2.3-1", for_all(a, c)(controls[a, c] >> (exists[a] & (control[a] == Control.CONTROLLING))),
-                       says="only an existing CONTROLLING program invocation has a list",
+    # Each says all that an entry implies, so that one of them alone is enough to exclude it.
+    lists_end = Always("R-6.3.2.3-1",
+                       for_all(a, c)(controls[a, c] >> (exists[a] & (control[a] == Control.CONTROLLING) & selected[a]
+                                                        & exists[c] & (control[c] == Control.CONTROLLED))),
+                       says="only an existing CONTROLLING program invocation has a list, of existing CONTROLLED ones, while it is selected",
                        repairs=repaired("RP-04", "R-6.3.2.3-1", because="nothing dangles"))  # fmt: skip
-    references_end = Always("R-6.3.2.8-1", for_all(a, c)(controller[c, a] >> (exists[c] & (control[c] == Control.CONTROLLED))),
-                            says="only an existing CONTROLLED program invocation has a controlling reference",
+    references_end = Always("R-6.3.2.8-1",
+                            for_all(a, c)(controller[c, a] >> (exists[c] & (control[c] == Control.CONTROLLED)
+                                                               & exists[a] & (control[a] == Control.CONTROLLING))),
+                            says="only an existing CONTROLLED program invocation has a controlling reference, to an existing CONTROLLING one",
                             repairs=repaired("RP-04", "R-6.3.2.8-1", because="nothing dangles"))  # fmt: skip
     idle_predicate = Derived(~intervention() & ~some_controlling() & ~some_selected(),
                              repairs=repaired("RP-12", "R-6.3.4.2-1", because="manual intervention comes first"))  # fmt: skip
