@@ -18,7 +18,7 @@ from mmsverify.concrete.belief.partial import OTHER, Partial
 from mmsverify.concrete.belief.several import changed
 from mmsverify.concrete.belief.values import NO, YES
 from mmsverify.model import expr as ex
-from mmsverify.model.expr import Expr, Quantified, Ref
+from mmsverify.model.expr import Cell, Expr, Quantified, Ref
 from mmsverify.model.rows import Clause
 
 LARGEST = 60
@@ -149,9 +149,19 @@ class Constraints:
         for chosen in product(*(self.world.names[sort] for sort in sorts)):
             if counted and all(name in seen for name, seen in zip(chosen, old, strict=True)):
                 continue
-            formula = self.ground.formula(constraint.body, dict(zip(names, chosen, strict=True)))
+            named = dict(zip(names, chosen, strict=True))
+            if chosen.count(OTHER) > 1 and _confuses(constraint.body, named):
+                continue
+            formula = self.ground.formula(constraint.body, named)
             if not isinstance(formula, Fixed) or formula.value != YES:
                 yield _Instance(formula, constraint.clause, OTHER in chosen)
+
+
+def _confuses(body: Expr, named: Mapping[str, str]) -> bool:
+    """Whether it compares two unseen names that share a cell: what the cell says holds of each by itself."""
+    cells = {node for node in ex.walk(body) if isinstance(node, Cell)}
+    shared = {(c.variable, tuple(named.get(getattr(arg, "name", ""), arg) for arg in c.args)) for c in cells}
+    return len(shared) < len(cells)
 
 
 def _constraint(formula: Expr, clause: Clause) -> _Constraint:
@@ -164,12 +174,26 @@ def _is_universal(formula: Expr) -> TypeGuard[Quantified]:
 
 
 def _conjuncts(formula: Expr) -> Iterator[Expr]:
-    """The conjuncts of a formula, also those under a universal quantifier."""
+    """The conjuncts of a formula, also those under a universal quantifier or behind one implication."""
     if isinstance(formula, ex.And):
         for part in formula.parts:
             yield from _conjuncts(part)
     elif _is_universal(formula) and isinstance(formula.body, ex.And):
         for part in formula.body.parts:
             yield from _conjuncts(ex.quantified(True, formula.bound, part))
+    elif _is_universal(formula) and isinstance(formula.body, ex.Or):
+        for part in _distributed(formula.body):
+            yield ex.quantified(True, formula.bound, part)
     else:
         yield formula
+
+
+def _distributed(body: ex.Or) -> Iterator[Expr]:
+    """A disjunction with one conjunction in it as several disjunctions."""
+    joined = [part for part in body.parts if isinstance(part, ex.And)]
+    if len(joined) != 1:
+        yield body
+        return
+    others = [part for part in body.parts if part is not joined[0]]
+    for part in joined[0].parts:
+        yield ex.disjunction(*others, part)
