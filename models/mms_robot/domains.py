@@ -244,7 +244,7 @@ class Domains(Vocabulary):
                   says="sharable of {domain} cannot be {shown_sharable}"),
             needs("R-9.2.2.2.1-3", "B-DOMAIN", rule="domain.state", that=~transient >> (domain_state[domain] == shown_domain),
                   says="{domain} cannot be in that state"),
-            needs("R-9.2.2.2.1-3", "B-DOMAIN", rule="domain.users", that=~transient >> for_all(p)((exists[p] & uses[p, domain]) == users.has(p)),
+            needs("R-9.2.2.2.1-3", "B-DOMAIN", rule="domain.users", that=~transient >> for_all(p)(bound[p, domain] == users.has(p)),
                   says="other program invocations are bound to {domain}"),
             needs("R-9.2.2.2.1-3", "B-UPLOAD", rule="domain.uploads", that=~transient >> (for_some(x)(source[x, domain]) == shown_uploading),
                   says="the count of uploads of {domain} cannot be right"),
@@ -264,10 +264,10 @@ class Domains(Vocabulary):
     )  # fmt: skip
 
     # Claims.
-    used_domains_exist = Always("R-7.3.3.2.3-0", for_all(p, d)((exists[p] & uses[p, d]) >> (domain_state[d] == DomainState.READY)), "R-7.4.3.2-d", "B-CREATE",
+    used_domains_exist = Always("R-7.3.3.2.3-0", for_all(p, d)(bound[p, d] >> (domain_state[d] == DomainState.READY)), "R-7.4.3.2-d", "B-CREATE",
                                 says="every domain of an existing program invocation exists and is in use")  # fmt: skip
     unshared_has_one_user = Always(
-        "R-7.3.3.2.3-0", for_all(a, b, d)((exists[a] & exists[b] & uses[a, d] & uses[b, d] & (a != b)) >> sharable[d]), "R-8.2.2-2", "R-8.2.3-2", "B-CREATE",
+        "R-7.3.3.2.3-0", for_all(a, b, d)((bound[a, d] & bound[b, d] & (a != b)) >> sharable[d]), "R-8.2.2-2", "R-8.2.3-2", "B-CREATE",
         says="a domain that is not sharable has one program invocation at most")  # fmt: skip
     only_existing_use = Always("R-7.3.3.8.1-e", for_all(p, d)(uses[p, d] >> exists[p]), "R-7.4.3.2-d", "B-DELETE",
                                says="what has been deleted is bound to no domain")  # fmt: skip

@@ -290,7 +290,8 @@ class Vocabulary(Model):
         over=[p], doc="the state that a request found before its indication, which its response(-) gives back",
     )  # fmt: skip
     selected_started = Derived(for_some(p)(selected[p] & started[p]))
-    in_use = Derived(for_some(p)(exists[p] & uses[p, d]), over=[d])
+    bound = Derived(exists[p] & uses[p, d], over=[p, d])
+    in_use = Derived(for_some(p)(bound[p, d]), over=[d])
     in_transfer = Derived(
         domain_state[d].isin([DomainState.LOADING, DomainState.COMPLETE, DomainState.INCOMPLETE]), over=[d]
     )
@@ -329,8 +330,11 @@ class VocabularyRepaired(Vocabulary):
                          because="the predicates of 6.3.4 are neither exhaustive nor exclusive; under this mapping they are"),
     )  # fmt: skip
 
+    bound = Derived(uses[p, d], over=[p, d],
+                    repairs=repaired("RP-08", "R-7.4.3.2-d", because="what does not exist is bound to no domain, also after VMD Reset"))  # fmt: skip
+
     # VMD Reset d): the domains of program invocations that remain are in use, and remain; downloads end.
-    goes = domain_deletable[d] & for_all(p)((exists[p] & uses[p, d]) >> deletable[p])
+    goes = domain_deletable[d] & for_all(p)(uses[p, d] >> deletable[p])
     clear_domains = [
         domain_state[d].becomes(DomainState.NON_EXISTENT).over(d).when(goes),
         loads[u, d].becomes(False).over(u, d).when(goes),

@@ -80,6 +80,8 @@ class Situation:
         talk = Liar(self.model, self.scope, self.start)
         for act in self.acts:
             assert talk.do(act), f"{act} cannot happen"
+        # What is seen before local control is seen to be FALSE may have been changed at the panel meanwhile.
+        talk.look_round(ME)
         talk.look_round(ME)
         assert talk.do(Act("ask", SLOT, self.row.on.service, self.given))
         heard = talk.pending[SLOT].asked
