@@ -53,7 +53,7 @@ class Device:
         self._acquaintance = Acquaintance(belief.world.names["ProgramInvocation"])
         self._telling = Telling(place)
         self._performing = Performing(belief, self._telling, self._acquaintance, arms)
-        self._showing = Showing(belief, self._telling, self._acquaintance)
+        self._showing = Showing(belief, self._telling, self._acquaintance, arms)
         self._transfers = Transfers(belief, self._telling)
         self._notifications = Notifications(belief, self._showing)
         self._conformance = Conformance()
@@ -134,6 +134,7 @@ class Device:
         match pdu.kind:
             case "initiate-RequestPDU":
                 self._drop(list(association.asked.values()))
+                self._release(association.name)
                 yield from association.propose(pdu)
             case "initiate-ResponsePDU":
                 yield from self._initiated(association, pdu, message)

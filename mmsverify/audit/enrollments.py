@@ -57,9 +57,7 @@ class Cause:
         self._earlier = now
         occurred = self.surely_to_come and now == NO and then == YES
         self.surely_to_come = self.surely_to_come and not occurred
-        self.just_now = (
-            occurred and not belief.shown and not belief.preceded(self._side(before=False))
-        )
+        self.just_now = occurred and not belief.shown and not belief.preceded(self._side(before=False))
         return occurred
 
     def founded(self, belief: Belief) -> bool:

@@ -20,10 +20,14 @@ from mmsverify.results import Finding
 class Showing:
     """Answers that show something, and what is shown unasked."""
 
-    def __init__(self, belief: Belief, telling: Telling, acquaintance: Acquaintance) -> None:
+    def __init__(
+        self, belief: Belief, telling: Telling, acquaintance: Acquaintance, arms: frozenset[str]
+    ) -> None:
         self._belief = belief
         self._telling = telling
         self._acquaintance = acquaintance
+        self._arms = arms
+        self._predefined = frozenset(belief.world.names["ProgramInvocation"])
         self._variables = variables.Variables()
 
     def answered(self, asked: Asked, pdu: Pdu, message: TraceMessage) -> Iterator[Finding | Breach]:
@@ -59,7 +63,9 @@ class Showing:
             self._acquaintance.meet(call)
             yield from self._shown(message, call.service, call, slot)
         domains = frozenset(pdu.body["listOfDomainNames"])
-        bound = robot.Call("listOfDomainNames", {"pi": name, "domains": domains})
+        # Which of its own program invocations move an arm, a profile says.
+        moves = bool(self._arms & domains) if self._arms and name not in self._predefined else None
+        bound = robot.Call("listOfDomainNames", {"pi": name, "domains": domains, "shown_arm": moves})
         yield from self._shown(message, str(pdu.service), bound, slot)
 
     def status(

@@ -39,6 +39,7 @@ class Transfers:
         service = str(asked.pdu.service)
         if service == "initiateUploadSequence":
             self._beginning[asked.slot] = asked.pdu.body
+            self._belief.watch(asked.slot)
         elif service in UPLOADING:
             upload = f"{association}#{asked.pdu.body}"
             bindings = {"request": asked.slot, "user": association, "upload": upload, "panel": False}
@@ -70,12 +71,21 @@ class Transfers:
         self._beginning.pop(asked.slot, None)
         accepted = pdu.kind == "confirmed-ResponsePDU"
         bindings = {"request": asked.slot, "user": association, **_upload(association, asked.pdu, pdu)}
-        if "upload" not in bindings:
-            return  # refused before an upload began: a local matter
         answer = PLUS if accepted else MINUS
         local = pdu.kind == "rejectPDU" or (not accepted and robot.failure(pdu).local)
+        if "upload" not in bindings:
+            yield from self._not_begun(asked, message, local=local)
+            return
         outcome = self._belief.respond(asked.slot, service, bindings, answer, local=local)
         yield from self._telling.outcome(message, service, answer, outcome, (asked.index,))
+
+    def _not_begun(self, asked: Asked, message: TraceMessage, *, local: bool) -> Iterator[Finding]:
+        """Refused, an upload has no number; it shows that the domain was not to be had."""
+        if local or asked.pdu.body in self._beginning.values():
+            self._belief.drop(asked.slot)
+            return
+        outcome = self._belief.show("uploadRefused", {"domain": asked.pdu.body}, asked.slot)
+        yield from self._telling.outcome(message, "initiateUploadSequence", MINUS, outcome, (asked.index,))
 
     def attributes(self, asked: Asked, pdu: Pdu, message: TraceMessage) -> Iterator[Finding]:
         """The answer to GetDomainAttributes: nothing certain while an upload of the domain may just begin."""

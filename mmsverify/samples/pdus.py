@@ -24,7 +24,12 @@ def response(invoke_id: int, service: str, body: Any = None, detail: Any = None)
 
 def failure(invoke_id: int, cause: tuple[str, str], info: tuple[str, str] | None = None) -> Pdu:
     """A confirmed-ErrorPDU: class and code by name; ``info`` is a service and the state that it left."""
-    kinds = {"vmd-state": "VmdStateError", "definition": "DefinitionError", "service": "ServiceProblem"}
+    kinds = {
+        "resource": "ResourceError",
+        "vmd-state": "VmdStateError",
+        "definition": "DefinitionError",
+        "service": "ServiceProblem",
+    }
     error: dict[str, Any] = {"errorClass": (cause[0], number(kinds.get(cause[0], "AccessError"), cause[1]))}
     if info is not None:
         error["serviceSpecificInformation"] = (info[0], number("ProgramInvocationState", info[1]))

@@ -9,7 +9,7 @@ from .vocabulary import Vocabulary, VocabularyRepaired
 class Access(Vocabulary):
     """As written: nothing stands against it."""
 
-    write = Procedure("R-9.2.2.2.1-7", on=response("write", request), steps=[accept("R-9.2.2.2.1-7")])
+    write = Procedure("R-9.2.2.2.1-7", on=response("write", request, user), steps=[accept("R-9.2.2.2.1-7")])
 
 
 class AccessRepaired(Access, VocabularyRepaired):
@@ -17,7 +17,7 @@ class AccessRepaired(Access, VocabularyRepaired):
 
     write = Procedure(
         "R-9.2.2.2.1-7",
-        on=response("write", request),
+        on=response("write", request, user),
         steps=[
             refuse("R-3.2.1-1", "RP-10", when=local_control(), rule="write.local-control", says="the robot is in local control"),
             refuse("R-6.1.3.2.5-2", "B-STATUS", "RP-11", unless=logical().isin(ALL_BUT_RUNNING), rule="write.logical-status",

@@ -25,6 +25,7 @@ from mmsverify.model import (
     for_some,
     if_,
     needs,
+    optional,
     parameter,
     refuse,
     repaired,
@@ -256,11 +257,20 @@ class Domains(Vocabulary):
         shows=[needs("R-9.2.2.2.1-3", "B-DOMAIN", rule="domain.refused", level="warning",
                      that=domain_state[domain] == DomainState.NON_EXISTENT, says="{domain} exists")],
     )  # fmt: skip
+    shown_arm = optional("shown_arm", BOOL)
+    upload_refused = Observation(
+        "R-9.2.2.2.2.1-2",
+        on=shown("uploadRefused", domain),
+        shows=[needs("R-9.2.2.2.2.1-2", "B-UPLOAD", rule="initiateUploadSequence.refused", level="warning",
+                     that=(domain_state[domain] != DomainState.READY) | for_some(x)(source[x, domain]), says="nothing stands against it")],
+    )  # fmt: skip
     bound_domains = Observation(
         "R-7.3.3.9-1", "B-ATTRIBUTES",
-        on=shown("listOfDomainNames", pi, domains),
+        on=shown("listOfDomainNames", pi, domains, shown_arm),
         shows=[needs("R-7.3.3.9-1", "R-8.3.1-2", "R-8.3.2-2", "B-ATTRIBUTES", rule="attributes.domains",
-                     that=exists[pi] >> for_all(d)(uses[pi, d] == domains.has(d)), says="the domains of {pi} cannot be those shown")],
+                     that=exists[pi] >> for_all(d)(uses[pi, d] == domains.has(d)), says="the domains of {pi} cannot be those shown"),
+               needs("R-7.3.3.9-1", "R-8.2.1-1", "B-ATTRIBUTES", rule="attributes.domains",
+                     that=shown_arm.present >> (arm[pi] == shown_arm), says="the domains of {pi} cannot be those shown")],
     )  # fmt: skip
 
     # Claims.

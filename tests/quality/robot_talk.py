@@ -29,7 +29,7 @@ from mmsverify.concrete.trace_path import readable, readable_state
 from mmsverify.formats.mms import Pdu, decode, encode
 from mmsverify.formats.trace import Sender
 from mmsverify.model import ModelData, Row
-from mmsverify.model.rows import PLUS
+from mmsverify.model.rows import MINUS, PLUS
 from mmsverify.model.sorts import EnumSort
 from mmsverify.results import PathStep
 from mmsverify.samples import pdus
@@ -39,6 +39,8 @@ ARMS = frozenset({"R_ARM"})
 """The domains of an arm, where a program invocation of an arm is predefined."""
 
 OUTSTANDING = 5
+NO_NUMBER_LEFT = "upload.id-in-use"
+"""The robot gives an upload its number, so that it refuses one only for want of numbers."""
 SERVICES = (*OFFERED["server"], "loadDomainContent", "storeDomainContent")
 ASSOCIATING = {"initiate": "open", "release": "close"}
 """Rows that answer to no confirmed request, and the act that performs each."""
@@ -213,6 +215,8 @@ class Talk:
     def _decide(self, request: Pending, row: Row) -> None:
         said = {name: readable(held) for name, held in request.asked.items()}
         request.answer = messages.answer(request.invoke_id, request.service, said, row.answer, self.shown())
+        if row.answer == MINUS and row.guard and row.guard[-1].rule == NO_NUMBER_LEFT:
+            request.answer = pdus.failure(request.invoke_id, ("resource", "capability-unavailable"))
 
     def _answer(self, act: Act) -> bool:
         request = self.pending.get(act.who)

@@ -49,28 +49,15 @@ ELSEWHERE = {
 ENDS = "a program that is RUNNING may have ended unseen"
 RESTS = "the arm may have come to rest unseen (RP-07), and the service was right after that"
 LOCAL = "VMD Reset may be refused for a local reason, which no message shows (step c)"
-OTHERS = (
-    "a recording that begins later leaves open what program invocations there are that it has not named yet"
-)
-ARMS = "no message of such a recording shows which program invocations move an arm"
-NUMBERS = "a recording that begins later leaves open which uploads go on"
-BEFORE = "refused, an upload has no number, and the audit has nothing to ask the model for"
+NUMBERS = "the robot numbers its uploads: it refuses one for want of numbers, which is a local reason"
 NOT_TOLD = {
     ("delete/a#3 result(-)", ACCEPTED): ENDS,
-    ("delete/c1 result(-)", ACCEPTED): OTHERS,
     ("delete/R-7.3.3.8.1-e result(-)", ACCEPTED): RESTS,
-    ("select/c result(-)", ACCEPTED): OTHERS,
-    ("start/a#2 result(-)", ACCEPTED): OTHERS,
-    ("resume/R-6.3.5.10-1 result(-)", ACCEPTED): ARMS,
     ("reset/R-6.3.5.8-1 result(-)", ACCEPTED): RESTS,
     **{(name, REFUSED): LOCAL for name in STEPS if name.startswith("vmd_reset/")},
     ("vmd_reset/b result(-)", ACCEPTED): ENDS,
     ("vmd_reset/c result(-)", ACCEPTED): LOCAL,
-    ("initiate_upload/2 result(-)", REFUSED): BEFORE,
-    ("initiate_upload/2#2 result(-)", REFUSED): BEFORE,
-    ("upload_segment/2 result(-)", ACCEPTED): NUMBERS,
-    ("terminate_upload/2 result(-)", ACCEPTED): NUMBERS,
-    **{(name, REFUSED): OTHERS for name in STEPS if name.startswith("delete_domain/")},
+    ("initiate_upload/2#2 result(-)", REFUSED): NUMBERS,
 }
 """What a robot can do wrong without the answer telling, with the reason; the list may only become shorter."""
 

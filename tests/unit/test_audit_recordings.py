@@ -85,7 +85,9 @@ def test_what_a_recording_lacks_may_be_performed_until_it_is_answered(listen: Li
 def test_an_inquiry_that_a_recording_lacks_explains_nothing(listen: Listen) -> None:
     made = cell(begun=False)
     moved_unasked(made)
-    made.recording.say(made.name, "server", Pdu("confirmed-ResponsePDU", 99, "read", {"listOfAccessResult": []}))
+    made.recording.say(
+        made.name, "server", Pdu("confirmed-ResponsePDU", 99, "read", {"listOfAccessResult": []})
+    )
     assert (3, "status.robot-state") in rules(listen(made.recording))
 
 
