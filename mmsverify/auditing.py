@@ -43,10 +43,12 @@ def audit_traces(
         try:
             trace = read_trace(path)
             merged = tables if profile is not None else {**tables, **from_metadata(trace.profile, str(path))}
+            entry, found = _audit(trace, merged, model, variant)
         except (InputError, ProfileError) as error:
+            if profile is not None and isinstance(error, ProfileError):
+                raise
             findings.append(_unreadable(path, error))
             continue
-        entry, found = _audit(trace, merged, model, variant)
         inputs.append(entry)
         findings += found
     return Audit(inputs, findings)
@@ -70,13 +72,10 @@ def _audit(
 
 
 def _findings(replay: Replay, path: Path) -> Iterator[Finding]:
-    """What the replay finds, up to the point at which the recording cannot be read on.
-
-    Nor is it read on where its profile turns out to be that of no possible robot.
-    """
+    """What the replay finds, up to the point at which the recording cannot be read on."""
     try:
         yield from replay.run()
-    except (InputError, ProfileError) as error:
+    except InputError as error:
         yield _unreadable(path, error)
 
 

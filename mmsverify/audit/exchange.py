@@ -41,8 +41,9 @@ class Association:
 
     ``begun``: the recording shows it from its Initiate on, without a gap. ``proposed``: the Initiate that
     waits for its answer. ``_hidden``: requests whose invokeID was used again before their answer, which may
-    still come. ``_overdue``: the indices of requests that were told of as outstanding beyond what was agreed; they
-    are told of once, for their answers may be lost. ``alarm``: what the last message told that stops the robot, if it did.
+    still come. ``_overdue``: the indices of requests that were told of as outstanding beyond what was agreed;
+    they are told of once, for their answers may be lost. ``alarm``: what the last message told that stops the
+    robot, if it did.
     """
 
     def __init__(self, name: str) -> None:

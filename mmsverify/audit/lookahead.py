@@ -23,7 +23,7 @@ from mmsverify.formats.trace import TraceMessage
 
 INITIATES = (b"\xa8", b"\xa9")
 WAITS = 100
-"""So many messages of its association a request that is missing may wait for its answer; a later answer is astray."""
+"""So many messages of its association may come before the answer to a request that is missing."""
 INQUIRIES = ("get", "identify", "read", "report", "status")
 """So begin the names of the services that change nothing."""
 

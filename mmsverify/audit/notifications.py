@@ -34,8 +34,8 @@ Told = Iterator[Finding | Breach]
 class Notifications:
     """The event enrollments of one device, and what is notified of them.
 
-    ``_unsettled``: requests about enrollments that wait, with their associations; ``_mingled``: those of them that
-    waited beside another one, which may have been performed before or after.
+    ``_unsettled``: requests about enrollments that wait, with their associations; ``_mingled``: those of them
+    that waited beside another one, which may have been performed before or after.
     """
 
     def __init__(self, belief: Belief, showing: Showing) -> None:
@@ -104,7 +104,7 @@ class Notifications:
         made.begin(self._belief)
 
     def _delete(self, association: str, body: tuple[str, Any], *, certain: bool) -> None:
-        """Which ones are deleted is certain only where they are named, none is left and none made meanwhile."""
+        """Which are deleted is certain only where they are named, none is left and none made meanwhile."""
         kind, content = body
         named = {plain_name(name) for name in content} if kind == "specific" else set(self._enrolled)
         for name in named:

@@ -41,7 +41,7 @@ def _asked(service: str, given: Arguments) -> tuple[Any, Any]:
             domains = domain_messages.names(given)
             named = {"programInvocationName": given["pi"], "listOfDomainNames": domains}
             return {**named, "reusable": given["reuse"]}, words.CONTROL.index(given["kind"]) or None
-        case "deleteProgramInvocation":
+        case "deleteProgramInvocation" | "getProgramInvocationAttributes":
             return given["pi"], None
         case "start":
             return {"programInvocationName": given["pi"]}, _start(given)
@@ -53,24 +53,14 @@ def _asked(service: str, given: Arguments) -> tuple[Any, Any]:
             return _selection(given), None
         case "alterPI":
             return {"programInvocation": given["pi"], "startCount": _count(given)}, None
-        case "vMDReset":
+        case "vMDReset" | "status":
             return False, None
         case "takeControl" | "relinquishControl" | "reportSemaphoreStatus":
             return _of_semaphore(service, given), None
-        case "getProgramInvocationAttributes":
-            return given["pi"], None
-        case "status":
-            return False, None
         case "read":
-            asked = [{"variableSpecification": ("name", _named(name))} for name in given["variables"]]
-            return {
-                "specificationWithResult": False,
-                "variableAccessSpecification": ("listOfVariable", asked),
-            }, None
+            return {"specificationWithResult": False, **_variables(*given["variables"])}, None
         case "write":
-            named = [{"variableSpecification": ("name", ("vmd-specific", WRITTEN))}]
-            access = {"variableAccessSpecification": ("listOfVariable", named)}
-            return {**access, "listOfData": [("boolean", True)]}, None
+            return {**_variables(WRITTEN), "listOfData": [("boolean", True)]}, None
     return domain_messages.asked(service, given), None
 
 
@@ -83,6 +73,11 @@ def _of_semaphore(service: str, given: Arguments) -> Any:
     taken_over: dict[str, Any] = {"applicationToPreempt": {}} if given.get("preempts") else {}
     stays = bool(given.get("stays"))
     return {"semaphoreName": SEMAPHORE, **limited, "relinquishIfConnectionLost": not stays, **taken_over}
+
+
+def _variables(*names: str) -> dict[str, Any]:
+    listed = [{"variableSpecification": ("name", _named(name))} for name in names]
+    return {"variableAccessSpecification": ("listOfVariable", listed)}
 
 
 def _named(name: str) -> tuple[str, Any]:

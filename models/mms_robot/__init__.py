@@ -43,7 +43,8 @@ class AsWritten(
 
 class Repaired(
     ProgramsRepaired, SelectionRepaired, ExecutionRepaired, VmdRepaired, AccessRepaired, AssociationsRepaired, DomainsRepaired,
-    Devices, Observations, PropertiesRepaired, DeviceProperties, Services, Attributes, OutcomesRepaired, TransfersRepaired, Figure8Repaired, TransitionsRepaired, Events,
+    Devices, Observations, PropertiesRepaired, DeviceProperties, Services, Attributes, OutcomesRepaired, TransfersRepaired,
+    Figure8Repaired, TransitionsRepaired, Events,
     name="mms-robot", variant="repaired", standard=STANDARD, views=VIEWS, scenario=scenario, worlds=worlds,
     consequences=CONSEQUENCES, named=named,
 ):  # fmt: skip

@@ -10,7 +10,7 @@ from independent.fault import CATALOGUE, Fault
 __all__ = ["CATALOGUE", "OPEN", "Fault", "fault_robot", "fault_services", "fault_shown", "fault_wire"]
 
 OPEN: Mapping[str, str] = {
-    "limited_attributes": "in local control somebody at the panel may have changed the logical status meanwhile",
+    "limited_attributes": "in local control, the panel may have changed the logical status",
     "status_loaded_but_empty": "a program that was never shown may have come and gone",
     "refused_create": "the refusal of Create may be due to what was never shown",
     "without_control_stop_free": "told again: Stop was not performed either",
