@@ -165,7 +165,8 @@ class Notifications:
             yield Breach("event.deleted", {"enrollment": name})
             return
         answer = _action_result(body)
-        if condition == words.ARM and answer is not None and _runs(answer):
+        leaving = enrollment is None or enrollment.about_causes_only
+        if condition == words.ARM and answer is not None and leaving and _runs(answer):
             yield Breach("event.arm-running")
         elif enrollment is not None and self._unfounded(enrollment, condition):
             yield Breach(

@@ -227,6 +227,7 @@ PROTOCOL = (
     rule(
         "conformance.rejected",
         "the robot rejects {service} as unrecognized, which the base class requires",
-        "R-7.5.2.4-2",
+        "RP-24",
+        severity="warning",
     ),
 )

@@ -4,7 +4,7 @@ They are Status, UnsolicitedStatus, GetProgramInvocationAttributes and the stand
 shows the instant at which it was read: only a reading says that those of one Read are of one instant (RP-22).
 """
 
-from mmsverify.model import BOOL, Observation, for_all, integer, needs, optional, parameter, shown
+from mmsverify.model import BOOL, Observation, for_all, for_some, integer, needs, optional, parameter, shown
 
 from .vocabulary import Calibration, Control, Logical, Mode, Physical, RobotState, State, Vocabulary
 
@@ -21,6 +21,14 @@ class Observations(Vocabulary):
     shown_interlocks = optional("shown_interlocks", BOOL)
     selected_is = PI.maybe("selected_is")
     detailed = parameter("detailed", BOOL)
+
+    # Program start leads to EXECUTING (5.3.1.3.3.6); that it does not without an arm to move, only a reading says.
+    claims_armless_motion = (
+        detailed
+        & (shown_robot == RobotState.EXECUTING)
+        & (robot_state() == RobotState.MOTION_PAUSED)
+        & for_some(a)(selected[a] & ~for_some(c)(controls[a, c] & arm[c]))
+    )
 
     # What contradicts itself within one message comes first, then what contradicts the state.
     status = Observation(
@@ -66,8 +74,10 @@ class Observations(Vocabulary):
             needs("R-7.3.2.1.1.4-1", "R-6.1.3.2.6-1", "R-6.1.3.2.6-3", rule="status.selected",
                   that=detailed >> for_all(a)(selected[a] == (selected_is.present & (a == selected_is))),
                   says="another program invocation is selected, or none"),
+            needs("R-6.3.4.5-1", "RP-12", "RP-20", rule="status.executing-without-arm", level="warning", that=~claims_armless_motion,
+                  says="the selected program invocation controls no arm, so that motion is not enabled"),
             needs("R-7.3.2.1.1.1-1", "R-6.1.3.1-2", rule="status.robot-state",
-                  that=detailed >> (robot_state() == shown_robot), says="the robot cannot be in {shown_robot}"),
+                  that=detailed >> ((robot_state() == shown_robot) | claims_armless_motion), says="the robot cannot be in {shown_robot}"),
             needs("R-7.3.2.1-1", "B-STATUS", rule="status.logical", that=logical() == shown_logical,
                   says="the logical status cannot be {shown_logical}"),
             needs("R-7.3.2.1-1", "B-STATUS", rule="status.physical", that=physical() == shown_physical,
