@@ -132,7 +132,7 @@ class Enrollment:
         if all(belief.says(cause.occurrence.before) == YES for cause in self.causes):
             belief.watch(self.slot)
         elif (belief.watched(self.slot) or 0) > LARGEST_WATCH:
-            belief.undisturbed(self.slot)
+            belief.unwatch(self.slot)
 
     def founded(self, belief: Belief) -> bool:
         """Whether the cause of a notification may have occurred."""

@@ -70,7 +70,7 @@ class Notifications:
             self._performed(association, asked, pdu, listens)
         for enrollment in self._enrolled.values() if disturbed else ():
             enrollment.doubt()
-            self._belief.undisturbed(enrollment.slot)
+            self._belief.unwatch(enrollment.slot)
 
     def _performed(self, association: str, asked: Asked, answer: Pdu, listens: bool) -> None:
         body = asked.pdu.body

@@ -315,6 +315,10 @@ class Belief:
         watch = self._watches.get(slot)
         return None if watch is None else len(watch.earlier)
 
+    def unwatch(self, slot: str) -> None:
+        """Nobody asks for what ``slot`` may show any more."""
+        self._watches.pop(slot, None)
+
     def undisturbed(self, slot: str) -> bool:
         """Whether nothing else has been told since ``slot`` was watched; it is watched no more."""
         watch = self._watches.pop(slot, None)
