@@ -25,7 +25,7 @@ SERVICES = {
     "start": "start",
     "stop": "stop", "resume": "resume", "reset": "reset", "select": "select", "vmd_stop": "vMDStop",
     "vmd_reset": "vMDReset", "take_control": "takeControl", "relinquish_control": "relinquishControl",
-    "alter": "alterPI", "start_fails": "start", "stop_fails": "stop", "resume_fails": "resume",
+    "alter": "alterPI", "write": "write", "start_fails": "start", "stop_fails": "stop", "resume_fails": "resume",
     "reset_fails": "reset",
     "initiate_download": "initiateDownloadSequence", "segment_given": "downloadSegment",
     "segment_failed": "downloadSegment", "download_terminated": "terminateDownloadSequence",

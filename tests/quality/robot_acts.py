@@ -23,7 +23,7 @@ LOOKS = {
 }
 """Services that show state, with the observations of the model that their answers are."""
 
-IN_REFUSALS = ("stateAfterFailure",)
+IN_REFUSALS = ("stateAfterFailure", "uploadRefused")
 """Observations that stand in the answers of other services."""
 
 IN_REQUESTS = ("downloadSegmentAsked", "terminateDownloadSequenceAsked")
