@@ -74,7 +74,6 @@ class Device:
                 lost_after = Breach("association.lost-after-stop", {"cause": association.alarm})
                 yield from self._telling.breach(message, lost_after)
             lost = association.end()
-            association.reopen()
             self._notifications.ended(connection)
             self._release(connection)
         else:

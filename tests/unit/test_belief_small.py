@@ -7,6 +7,8 @@ from typing import Any
 import pytest
 
 from mmsverify.concrete.belief import Belief
+from mmsverify.concrete.belief.partial import OTHER
+from mmsverify.concrete.belief.values import plain
 from mmsverify.model import (
     BOOL,
     Always,
@@ -117,7 +119,9 @@ def switch(belief: Belief, name: str, answer: str) -> str | None:
 
 
 def phases(belief: Belief, name: str) -> set[str]:
-    return {word for word in ("OFF", "STARTING", "ON") if belief.may_be("phase", (name,), word)}
+    key = "phase", (name if name in belief.world.names["Machine"] else OTHER,)
+    of = belief.model.signatures["phase"].of
+    return {str(word) for state in belief.states for word in plain(state.get(key), of)}
 
 
 def test_at_first_everything_is_possible(belief: Belief) -> None:

@@ -3,7 +3,7 @@
 They are partial and sound: more than the truth may be thought possible, never less.
 """
 
-from mmsverify.concrete.belief.belief import Belief, Outcome
-from mmsverify.concrete.belief.blame import Blame
+from mmsverify.concrete.belief.belief import Belief
+from mmsverify.concrete.belief.blame import Blame, Outcome
 
 __all__ = ["Belief", "Blame", "Outcome"]

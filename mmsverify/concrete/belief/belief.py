@@ -8,13 +8,13 @@ with what was observed: with the effects of the observed answer, or without them
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from functools import reduce
 from operator import or_
 from typing import Any, Literal
 
 from mmsverify.concrete.belief.act import Refusal, settle, take
-from mmsverify.concrete.belief.blame import Blame, before, blame
+from mmsverify.concrete.belief.blame import Blame, Outcome, before, blame
 from mmsverify.concrete.belief.constraints import Conflict, Constraints
 from mmsverify.concrete.belief.coverage import Coverage
 from mmsverify.concrete.belief.given import Watch, as_known
@@ -22,29 +22,17 @@ from mmsverify.concrete.belief.goal import Goal
 from mmsverify.concrete.belief.ground import Ground, negated
 from mmsverify.concrete.belief.internal import Outstanding, Unseen, decided, not_accepted, undecided
 from mmsverify.concrete.belief.nodes import Formula
-from mmsverify.concrete.belief.partial import OTHER, Key, Partial, World
+from mmsverify.concrete.belief.partial import Key, Partial, World
 from mmsverify.concrete.belief.ready import Rows
 from mmsverify.concrete.belief.resync import forced, learned_anew, sight_lost
 from mmsverify.concrete.belief.several import distinct, widened, written
-from mmsverify.concrete.belief.values import YES, Env, exactly, plain
-from mmsverify.model.expr import Expr, Ref
+from mmsverify.concrete.belief.values import YES, Env, exactly
+from mmsverify.model.expr import Expr
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import MINUS, PLUS, Claim, Clause, Row
 from mmsverify.model.sorts import ElementSort
 
 LARGEST_BELIEF = 300
-
-
-@dataclass(frozen=True, slots=True)
-class Outcome:
-    """What became of an event: a violation or none.
-
-    ``written`` are the cells that it changed, ``clauses`` those that made it change them, by variable.
-    """
-
-    blame: Blame | None = None
-    written: frozenset[Key] = frozenset()
-    clauses: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
 
 class Belief:
@@ -120,16 +108,6 @@ class Belief:
                     env[parameter.name] = as_known(given, parameter.of)
         return env
 
-    def may_be(self, name: str, args: tuple[str, ...], word: str) -> bool:
-        """Whether a variable or definition may have the value that prints as ``word``."""
-        expr = self.model.define(
-            name, *(Ref(arg, sort) for arg, sort in zip(args, self._sorts(name), strict=True))
-        )
-        known = {name for names in self.world.names.values() for name in names}
-        value = self.ground.value(expr, {arg: arg if arg in known else OTHER for arg in args})
-        assert value is not None
-        return any(word in map(str, plain(value.known(state), expr.sort)) for state in self.states)
-
     def says(self, condition: Expr) -> int:
         """What the belief says of a condition without parameters: ``NO``, ``YES`` or ``EITHER``."""
         formula = self.ground.formula(condition, {})
@@ -168,11 +146,6 @@ class Belief:
         formula = self.ground.formula(condition, {})
         told = self._agreeing(self._shown, [self.world.blank()])[0]
         return bool(told) and all(formula.holds(state) == YES for state in told)
-
-    def _sorts(self, name: str) -> tuple[Any, ...]:
-        if name in self.model.definitions:
-            return tuple(ref.of for ref in self.model.definitions[name][0])
-        return self.model.signatures[name].sorts
 
     def _see_all(self, sort: object, given: Any) -> None:
         if isinstance(sort, ElementSort) and given is not None:

@@ -6,7 +6,7 @@ Nothing is decided here; the belief calls for an explanation once it is sure tha
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import reduce
 from typing import Any
 
@@ -38,6 +38,18 @@ class Blame:
     expected: tuple[str, ...]
     before: Mapping[str, Any]
     reads: frozenset[Key]
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What became of an event: a violation or none.
+
+    ``written`` are the cells that it changed, ``clauses`` those that made it change them, by variable.
+    """
+
+    blame: Blame | None = None
+    written: frozenset[Key] = frozenset()
+    clauses: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
 
 def blame(
