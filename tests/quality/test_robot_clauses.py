@@ -36,7 +36,7 @@ def test_citations_have_the_form_of_clauses_and_readings(variant: str) -> None:
 def test_every_row_and_claim_cites_something(variant: str) -> None:
     model = robot(variant)
     assert [row.id for row in model.rows if not row.clause.ids + row.clause.readings] == []
-    assert [claim.name for claim in model.claims if not claim.clause.ids] == []
+    assert [claim.name for claim in model.claims if not claim.clause.ids + claim.clause.readings] == []
 
 
 def test_every_repair_names_a_clause_that_it_mends_and_says_why() -> None:
