@@ -90,7 +90,7 @@ def check_model(model: ModelData, request: Request, progress: Progress = None) -
     asked = [claim for claim in model.claims if request.asks_for(claim)]
     claims = [claim for claim in asked if _made_of(model, claim, request)]
     left_out = tuple(claim.title for claim in asked if claim not in claims)
-    if not claims:
+    if asked and not claims:
         return ModelCheck(model.name, model.variant, [], (), request.judged, left_out)
     request = request.begun(len(claims))
     check = _Check(model, request, progress, claims)

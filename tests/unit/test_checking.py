@@ -143,6 +143,15 @@ def test_properties_that_a_profile_leaves_out_are_named() -> None:
     assert ([v.name for v in found.verdicts], found.left_out) == (["power-comes"], ("runs-steps",))
 
 
+def test_what_a_model_without_properties_leaves_open_is_still_told(tmp_path: Path) -> None:
+    path = tmp_path / "bare.py"
+    path.write_text(
+        "from mmsverify.model import *\nclass Bare(Model, name='bare'):\n    lit = Relation()\n"
+        "    fuse = Unspecified('L-1', 'what happens when the fuse blows')\n"
+    )
+    assert check(str(path)).notes == ("gap fuse (L-1): what happens when the fuse blows",)
+
+
 def test_a_check_of_which_a_profile_leaves_nothing_is_refused() -> None:
     with pytest.raises(UsageError, match="runs-steps: not claimed of what has this profile"):
         check("mms-robot", properties=["runs-steps"], profile=Path("no-step"))
