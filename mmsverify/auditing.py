@@ -65,6 +65,10 @@ def _audit(
     begin = time.perf_counter()
     replay = Replay(trace, tables, model, variant)
     findings = list(_findings(replay, Path(trace.path)))
+    if trace.truncated and not replay.messages and not findings:
+        raise InputError(
+            "cut off before the end of its first message", place=trace.path, cure="copy the recording again"
+        )
     seconds = round(time.perf_counter() - begin, 3)
     return AuditedInput(
         trace.path, replay.messages, replay.events, replay.skipped, trace.truncated, seconds

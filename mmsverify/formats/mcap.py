@@ -84,11 +84,16 @@ def read_trace(path: str | os.PathLike[str]) -> McapTrace:
 
 def _open(place: str) -> BinaryIO:
     try:
+        if Path(place).is_dir():
+            raise InputError(
+                "a folder without recordings", place=place, cure="name one that holds .mcap files"
+            )
         if not Path(place).is_file() and Path(place).exists():
-            raise InputError("not a regular file", place=place)
+            raise InputError("not a regular file", place=place, cure="name an MCAP file")
         return open(place, "rb")
     except (OSError, ValueError) as error:
-        raise InputError(getattr(error, "strerror", None) or str(error), place=place) from None
+        cause = getattr(error, "strerror", None) or str(error)
+        raise InputError(cause, place=place, cure="name an MCAP file that can be read") from None
 
 
 def _in_order(file: BinaryIO, found: Survey) -> Iterator[list[Message]]:

@@ -25,7 +25,10 @@ def summary(audit: Audit) -> str:
     """The closing line: how much was read, how much was found."""
     counts = tally(audit.findings)
     judged = any(entry.events for entry in audit.inputs)
-    none = "no violation" if judged else "nothing was judged: no model knows these channels"
+    nothing = (
+        "no model knows these channels" if any(e.messages for e in audit.inputs) else "there is no message"
+    )
+    none = "no violation" if judged else f"nothing was judged: {nothing}"
     found = counted(len(audit.findings), "violation") if audit.findings else none
     parts = ", ".join(counted(number, severity) for severity, number in counts.items())
     messages = counted(sum(entry.messages for entry in audit.inputs), "message")

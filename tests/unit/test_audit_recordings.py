@@ -314,3 +314,14 @@ def test_a_recording_with_a_bad_profile_does_not_keep_others_from_being_audited(
     audit = audit_traces([bad, good], profile=None, model=None)
     assert [Path(entry.path).name for entry in audit.inputs] == ["good.mcap"]
     assert [(f.rule, Path(f.path).name) for f in audit.findings] == [("input.unreadable", "bad.mcap")]
+
+
+@pytest.mark.parametrize("length", [8, 100])
+def test_a_recording_of_which_no_message_is_left_is_not_judged(tmp_path: Path, length: int) -> None:
+    cut = tmp_path / "cut.mcap"
+    made = cell()
+    made.recording.write(cut, None)
+    cut.write_bytes(cut.read_bytes()[:length])
+    (found,) = audit_traces([cut], profile=None, model=None).findings
+    assert found.rule == "input.unreadable"
+    assert "first message" in found.message
