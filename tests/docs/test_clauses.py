@@ -117,13 +117,11 @@ def test_the_statements_are_in_words_of_the_projects_own() -> None:
 STALE = "python -m mmsverify.register . renews the tables (with --tests-only, without replaying the samples)"
 
 
-@pytest.mark.xfail(strict=False, reason="tests are being added faster than the tables are renewed")
 def test_the_tables_of_what_is_exercised_are_those_of_the_present_tests() -> None:
     assert stale(replay=False) == [], STALE
 
 
 @pytest.mark.slow
-@pytest.mark.xfail(strict=False, reason="tests are being added faster than the tables are renewed")
 def test_the_tables_of_what_is_exercised_are_those_of_the_present_samples() -> None:
     assert stale(replay=True) == [], STALE
 
