@@ -15,7 +15,8 @@ from mmsverify.results import Severity
 class Rule:
     """One rule: its id in findings, what it rests on, how bad a breach is, the sentence about it.
 
-    ``shown``: it is about something that every poll shows again.
+    ``shown``: it is about something that every poll shows again. ``expects`` is what would have been legal,
+    as results name it, and ``observed`` what was there instead; both may have words in them, as ``says``.
     """
 
     id: str
@@ -23,6 +24,8 @@ class Rule:
     severity: Severity
     says: str
     shown: bool = False
+    expects: tuple[str, ...] = ()
+    observed: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,5 +43,13 @@ class Breach:
     at: TraceMessage | None = None
 
 
-def rule(name: str, says: str, *cites: str, severity: Severity = "error", shown: bool = False) -> Rule:
-    return Rule(name, Clause.of(*cites), severity, says, shown)
+def rule(
+    name: str,
+    says: str,
+    *cites: str,
+    severity: Severity = "error",
+    shown: bool = False,
+    expects: tuple[str, ...] = (),
+    observed: str = "",
+) -> Rule:
+    return Rule(name, Clause.of(*cites), severity, says, shown, expects, observed)

@@ -44,6 +44,7 @@ CONTENTS = (
         "a list of controlled program invocations without a controlling one",
         "R-7.4.4.3-2",
         "R-7.4.4.1.1.2-1",
+        expects=("none",),
     ),
     rule(
         "program.never-shown",
@@ -53,6 +54,8 @@ CONTENTS = (
         "R-7.3.3.9-1",
         "RP-14",
         "RP-21",
+        expects=("result(-)",),
+        observed="result(+)",
     ),
     rule(
         "program.not-shown-yet",
@@ -62,10 +65,32 @@ CONTENTS = (
         "RP-14",
         "RP-21",
         severity="note",
+        expects=("result(-)",),
+        observed="result(+)",
     ),
-    rule("variable.type", "{variable} is {found}, not {wanted}", "R-8.1-1", shown=True),
-    rule("variable.value", "{variable} is {found}, not among {wanted}", "R-8.1-1", shown=True),
-    rule("variable.written", "{variable} was written as {found}, but it is {wanted}", "R-8.1-1"),
+    rule(
+        "variable.type",
+        "{variable} is {found}, not {wanted}",
+        "R-8.1-1",
+        shown=True,
+        expects=("{variable}={wanted}",),
+        observed="{found}",
+    ),
+    rule(
+        "variable.value",
+        "{variable} is {found}, not among {wanted}",
+        "R-8.1-1",
+        shown=True,
+        expects=("{variable}={wanted}",),
+        observed="{found}",
+    ),
+    rule(
+        "variable.written",
+        "{variable} was written as {found}, but it is {wanted}",
+        "R-8.1-1",
+        expects=("result(-)",),
+        observed="result(+)",
+    ),
     rule(
         "variable.joints",
         "{variable} tells of {count} joints, {other} of {joints}",
@@ -99,8 +124,22 @@ CONTENTS = (
         severity="warning",
         shown=True,
     ),
-    rule("object.attribute", "{attribute} of {object} is {found}, not {wanted}", "R-8.1-1", shown=True),
-    rule("object.member", "{attribute} of {object} is {found}, without {wanted}", "R-8.1-1", shown=True),
+    rule(
+        "object.attribute",
+        "{attribute} of {object} is {found}, not {wanted}",
+        "R-8.1-1",
+        shown=True,
+        expects=("{attribute}={wanted}",),
+        observed="{found}",
+    ),
+    rule(
+        "object.member",
+        "{attribute} of {object} is {found}, without {wanted}",
+        "R-8.1-1",
+        shown=True,
+        expects=("{attribute}={wanted}",),
+        observed="{found}",
+    ),
     # AlterEventConditionMonitoring may have changed it before the recording began.
     rule(
         "object.initial",
@@ -108,9 +147,24 @@ CONTENTS = (
         "R-8.1-1",
         severity="note",
         shown=True,
+        expects=("{attribute}={wanted}",),
+        observed="{found}",
     ),
-    rule("object.type", "{object} is described as {found}, not {wanted}", "R-8.1-1", shown=True),
-    rule("object.deleted", "{object} was deleted, but is not deletable", "R-8.1-1"),
+    rule(
+        "object.type",
+        "{object} is described as {found}, not {wanted}",
+        "R-8.1-1",
+        shown=True,
+        expects=("{object}={wanted}",),
+        observed="{found}",
+    ),
+    rule(
+        "object.deleted",
+        "{object} was deleted, but is not deletable",
+        "R-8.1-1",
+        expects=("result(-)",),
+        observed="result(+)",
+    ),
     rule(
         "semaphore.tokens",
         "R_CTRL has {count} owners, but only one token",
@@ -118,6 +172,8 @@ CONTENTS = (
         "R-8.6.1-3",
         "B-SEMAPHORE",
         shown=True,
+        expects=("numberOfOwnedTokens=1",),
+        observed="{count}",
     ),
     rule(
         "event.action-result", "event action {action} gives a result of {found}, not of {wanted}", "R-8.1-1"
@@ -127,12 +183,14 @@ CONTENTS = (
         "event condition R_ARM is notified, but the action result says that R_ARM is RUNNING",
         "R-8.7.4-1",
         "R-8.8.2-1",
+        expects=("none",),
     ),
     rule(
         "event.unfounded",
         "{condition} is notified, but its cause cannot have occurred",
         "R-6.3.9-1",
         "B-EVENT",
+        expects=("none",),
     ),
     rule(
         "event.missing",
@@ -140,7 +198,13 @@ CONTENTS = (
         "R-6.3.9-1",
         "B-EVENT",
     ),
-    rule("event.deleted", "{enrollment} is notified, but it has been deleted", "R-6.3.9-1", "B-EVENT"),
+    rule(
+        "event.deleted",
+        "{enrollment} is notified, but it has been deleted",
+        "R-6.3.9-1",
+        "B-EVENT",
+        expects=("none",),
+    ),
 )
 
 RULES: Mapping[str, Rule] = {listed.id: listed for listed in (*PROTOCOL, *CONTENTS)}

@@ -98,6 +98,7 @@ class Telling:
             path=self.place.path, vmd=self.place.vmd,
             index=message.index, time=message.time, topic=message.topic,
             severity=rule.severity, rule=rule.id, clauses=cited.ids,
-            message=said, expected=(), observed="",
+            message=said, expected=tuple(each.format(**breach.words) for each in rule.expects),
+            observed=rule.observed.format(**breach.words),
             related=breach.related, readings=cited.readings,
         )  # fmt: skip

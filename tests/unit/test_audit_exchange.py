@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from string import Formatter
+
 import pytest
 from associations import OFFERED, association, reject, rules
 
@@ -275,3 +277,14 @@ def test_a_conclude_leaves_no_request_unanswered() -> None:
     assert rules(list(made.conclude("server", Pdu("conclude-ResponsePDU")))) == ["protocol.unanswered"]
     assert [asked.index for asked in made.concluded()] == [0]
     assert admitted(made, "client") == ["protocol.after-conclude"]
+
+
+def test_what_a_rule_expects_is_said_in_the_words_of_its_sentence() -> None:
+    """Each rule can be told: its expectations need no word that its sentence does not have."""
+
+    def slots(text: str) -> set[str]:
+        return {name for _, name, _, _ in Formatter().parse(text) if name}
+
+    for rule in RULES.values():
+        for each in (*rule.expects, rule.observed):
+            assert slots(each) <= slots(rule.says), rule.id
