@@ -75,7 +75,7 @@ class Telling:
             index=message.index, time=message.time, topic=message.topic,
             severity="error" if blame.level == "error" else "warning", rule=blame.rule,
             clauses=tuple(dict.fromkeys((*blame.clause.ids, *made))), message=says,
-            expected=blame.expected, observed=answer or "shown", before=blame.before,
+            expected=blame.expected, observed=answer or blame.observed or "shown", before=blame.before,
             related=tuple(sorted(({*related, *writers}) - {message.index})), readings=blame.clause.readings,
         )  # fmt: skip
 

@@ -5,7 +5,7 @@ Nothing is decided here; the belief calls for an explanation once it is sure tha
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import reduce
 from typing import Any
@@ -17,7 +17,7 @@ from mmsverify.concrete.belief.partial import OTHER, Key, Partial
 from mmsverify.concrete.belief.ready import Ready
 from mmsverify.concrete.belief.values import ABSENT, NO, Env, Known, everything, join, plain, single
 from mmsverify.model import expr as ex
-from mmsverify.model.expr import Cell, Eq, Ref
+from mmsverify.model.expr import Cell, Eq, Expr, Ref
 from mmsverify.model.rows import Clause, Conjunct, Row
 from mmsverify.model.sorts import BOOL, Sort
 from mmsverify.model.terms import SetOf
@@ -28,7 +28,7 @@ class Blame:
     """One violation as data: the rule, what it rests on, a sentence about it, and the state before.
 
     ``reads`` are the cells that the refusing condition reads; the events that last wrote them are the related
-    ones.
+    ones. ``observed``: what was shown, as ``attribute=value``, if it was one value.
     """
 
     rule: str
@@ -38,6 +38,7 @@ class Blame:
     expected: tuple[str, ...]
     before: Mapping[str, Any]
     reads: frozenset[Key]
+    observed: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,6 +75,7 @@ def blame(
         expected=shown,
         before=before(ground, states, env),
         reads=_cells(conjunct, state, env),
+        observed=_observed(conjunct, env),
     )
 
 
@@ -138,16 +140,33 @@ def _word(given: Any, sort: Sort) -> str:
 
 def _expected(conjunct: Conjunct, states: Sequence[Partial], env: Env, ground: Ground) -> tuple[str, ...]:
     """For a shown value: the values that it could have had, as ``attribute=value``."""
-    for node in ex.walk(conjunct.condition):
-        if isinstance(node, Eq) and isinstance(node.right, Ref) and node.right.name.startswith("shown_"):
-            value = ground.value(node.left, env)
-            given, sort = env[node.right.name], node.left.sort
-            if value is None or given is ABSENT:
-                return ()
-            listed = plain(reduce(join, (value.known(state) for state in states)), sort)
-            name = node.right.name.removeprefix("shown_")
-            return tuple(f"{name}={v}" for v in listed if v not in plain(given, sort))
+    for held, shown in _compared(conjunct, env):
+        value, sort = ground.value(held, env), held.sort
+        if value is None:
+            return ()
+        listed = plain(reduce(join, (value.known(state) for state in states)), sort)
+        return tuple(f"{_attribute(shown)}={v}" for v in listed if v not in plain(env[shown.name], sort))
     return ()
+
+
+def _observed(conjunct: Conjunct, env: Env) -> str:
+    """The shown value itself."""
+    for _, shown in _compared(conjunct, env):
+        return f"{_attribute(shown)}={_word(env[shown.name], shown.of)}"
+    return ""
+
+
+def _compared(conjunct: Conjunct, env: Env) -> Iterator[tuple[Expr, Ref]]:
+    """What the condition compares with a shown value, and the parameter that shows it."""
+    for node in ex.walk(conjunct.condition):
+        if not isinstance(node, Eq) or not isinstance(node.right, Ref):
+            continue
+        if node.right.name.startswith("shown_") and env[node.right.name] is not ABSENT:
+            yield node.left, node.right
+
+
+def _attribute(shown: Ref) -> str:
+    return shown.name.removeprefix("shown_")
 
 
 def _joined(states: Sequence[Partial], key: Key) -> Known:
