@@ -82,6 +82,7 @@ WORLDS = (
     World({"PI": 1, "Domain": 1, "Upload": 1}, {"predefined": []}),
     World({"PI": 2, "Domain": 2}, {"predefined": [ARM, CALIBRATION]}),
     World({"PI": 2, "Domain": 1}, {"predefined": [ARM, OTHER]}),
+    World({"PI": 2, "Domain": 1}, {"predefined": [CALIBRATION]}),
     World({"PI": 1, "Client": 2}, {"predefined": [ARM], "associations": "multiple"}),
     World({"PI": 1}, {"predefined": [], "single_task": True}),
 )
