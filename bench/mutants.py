@@ -2,10 +2,10 @@
 
     python bench/mutants.py [--write] [--every N] [--kept FILE]
 
-One line is printed for each mutant that nothing kills. ``--write`` writes docs/mutation.md; ``--every N``
-takes only each N-th mutant; ``--kept FILE`` keeps what becomes of each, and judges only those anew that were
-alive: for a run that goes on, or one with more recordings. Two processes share the work; the clock depends on
-the machine, the result does not.
+One line is printed for each mutant that nothing kills. ``--write`` writes docs/mutation.md and the table that
+it is made from; ``--every N`` takes only each N-th mutant; ``--kept FILE`` keeps what becomes of each, and
+judges only those anew that were alive: for a run that goes on, or one with more recordings. Two processes
+share the work; the clock depends on the machine, the result does not.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ sys.path[:0] = [str(TESTS), str(TESTS / "quality")]
 
 from mutation_page import page  # noqa: E402
 from mutation_score import Fate, Score, numbered_mutants  # noqa: E402
+from mutation_table import write  # noqa: E402
 
 PAGE = ROOT / "docs" / "mutation.md"
 PROCESSES = 2
@@ -73,6 +74,7 @@ def main() -> None:
     fates = sorted([*known.values(), *made], key=lambda fate: fate.number)
     text = page(fates)
     if given.write:
+        write(fates)
         PAGE.write_text(text, encoding="utf-8")
     print(text)
     print(f"{sum(fate.seconds for fate in fates):.0f} s CPU, {time.perf_counter() - begin:.0f} s")

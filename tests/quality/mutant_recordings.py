@@ -85,15 +85,16 @@ class Shelf:
     def in_question(self, mutant: Mutant) -> list[Recording]:
         """Those in which the clause of the change is broken, then those in which the service is asked for.
 
-        Shorter ones come first, and of those that ask for a service the ones that keep the rules.
+        Shorter ones come first; of those that ask for a service the ones that were written by hand, and among
+        these the ones that keep the rules.
         """
         wanted = {"eventNotification"} if mutant.occurrences else {*map(self.service, mutant.rows)}
         asked = [r for r in self.recordings if wanted & r.services]
         asked.sort(key=lambda r: r.path.stat().st_size)
         broken = [r for r in asked if r.clauses.intersection(mutant.clauses)]
         others = [r for r in asked if r not in broken]
-        others.sort(key=lambda r: bool(r.clauses))
-        return broken[:MOST] + others[:MOST]
+        others.sort(key=lambda r: (not r.path.stem.startswith("by_hand"), bool(r.clauses)))
+        return broken[:MOST] + others[: 3 * MOST]
 
     def service(self, number: int) -> str:
         """The service by which a recording shows the row."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mutation_score import AUDIT, CHECK, CLAIM, EQUAL, OPEN, Fate
+from robot_mutation import CHANGED
 
 
 def share(part: int, whole: int) -> str:
@@ -48,7 +49,40 @@ def reason(fate: Fate) -> str:
     return f": {known}" if known else ""
 
 
-REASONS: dict[tuple[str, str], str] = {}
+UNSEEN = (
+    "power, interlocks, calibration and who holds a device may change at any instant, and no message tells of it "
+    "(RP-18): what one message shows of them contradicts no other one"
+)
+REASONS: dict[tuple[str, str], str] = {
+    (
+        CHANGED,
+        "counts_cycles: cycles",
+    ): "nobody tells how fast a counter runs: it still "
+    "reaches every count but nought while the program runs, and no clause says that nought is reached before",
+    (
+        CHANGED,
+        "counts_steps: steps",
+    ): "as with cycles: every count but nought is still "
+    "reached while the program runs, and at nought it is STOPPED",
+    (
+        CHANGED,
+        "devices_change: interlocks_violated",
+    ): "which interlocks are violated is free, and so "
+    "is whether any is: the changed rule allows the same states by other choices, of which Z3 is not asked",
+    **{
+        ("", f"{view}: {rule}"): UNSEEN
+        for view, rules in {
+            "status": ("status.interlocks", "status.power", "status.calibrated"),
+            "power_shown": ("variable.power",),
+            "all_calibrated_shown": ("variable.all-calibrated",),
+            "interlocks_shown": ("variable.interlocks",),
+            "device_power_shown": ("variable.device-power",),
+            "device_calibration_shown": ("variable.device-calibration",),
+            "device_local_shown": ("variable.device-local (2)",),
+        }.items()
+        for rule in rules
+    },
+}
 """Why mutants live, by kind (or any) and place."""
 
 HEAD = """\
@@ -59,9 +93,11 @@ one at a time: a step is left out, a condition negated, an effect lost, a value 
 of a procedure's step changes every row that the step has part in. Then:
 
 - `check` kills a mutant if Z3 finds, under the proved invariants, a step of a changed row that breaks a
-  claim. Claims that something can happen are not asked: a mutant that only makes the robot do less may break
-  one of them, but is left to `audit`.
-- A mutant is *equal* if Z3 proves, under the proved invariants, that its rows do what the real ones do.
+  claim; or if what is claimed to happen sometimes can happen by changed rows only, and by none of them any
+  more. Every claim is written by hand, from the clause that it cites; none is made from a row.
+- A mutant is *equal* if Z3 proves, under the proved invariants, that its rows do what the real ones do; what
+  no message tells may be called otherwise (TRUE for FALSE, a number for the next one, a set for what is not
+  in it).
 - `audit` kills a mutant if some recording gives other findings. The recordings are those written by hand and
   those of the robot written from the text alone, with the faults of its catalogue; then conversations that
   lead to a moment at which the mutant acts otherwise: its robot is accused by the real model, or a right

@@ -19,7 +19,7 @@ from robot import robot
 from robot_conversations import ROBOTS
 from robot_judge import Judge, claim_mutants
 from robot_moments import Hunt, found_by_audit
-from robot_mutation import Mutant, mutants
+from robot_mutation import STEP, TRANSITION, Mutant, mutants
 from robot_random import Chance, beginning
 
 from mmsverify.model import Claim
@@ -94,7 +94,7 @@ class Score:
         if self.judge.alike(mutant):
             return EQUAL, ""
         by = self.shelf.telling(mutant)
-        if not by and mutant.rows:
+        if not by and mutant.what in (STEP, TRANSITION):
             by = found_by_audit(self.model, mutant, self.hunt, self.folder)
         return (AUDIT, by) if by else (OPEN, "")
 
