@@ -4,7 +4,7 @@
 
 One line is printed for each mutant that nothing kills. ``--write`` writes docs/mutation.md and the table that
 it is made from; ``--every N`` takes only each N-th mutant; ``--kept FILE`` keeps what becomes of each, and
-judges only those anew that were alive: for a run that goes on, or one with more recordings. Two processes
+judges only those anew that were alive: for a run that goes on, or one with more recordings or rules. Two processes
 share the work; the clock depends on the machine, the result does not.
 """
 
@@ -17,7 +17,7 @@ import tempfile
 import time
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -26,8 +26,8 @@ TESTS = ROOT / "tests"
 sys.path[:0] = [str(TESTS), str(TESTS / "quality")]
 
 from mutation_page import page  # noqa: E402
-from mutation_score import Fate, Score, numbered_mutants  # noqa: E402
-from mutation_table import write  # noqa: E402
+from mutation_score import CLAIM, Fate, Score, numbered_mutants  # noqa: E402
+from mutation_table import key, write  # noqa: E402
 
 PAGE = ROOT / "docs" / "mutation.md"
 PROCESSES = 2
@@ -50,11 +50,13 @@ def part(numbers: Sequence[int], kept: Path | None) -> list[Fate]:
 
 
 def settled(kept: Path | None) -> dict[int, Fate]:
-    """What was killed or equal before."""
+    """Rules that were killed or equal before, by today's numbers; claims are judged in no time."""
     if kept is None or not kept.exists():
         return {}
     fates = (Fate(**json.loads(line)) for line in kept.read_text(encoding="utf-8").splitlines())
-    return {fate.number: fate for fate in fates if not fate.open}
+    known = {(fate.what, fate.kind, fate.place): fate for fate in fates if not fate.open}
+    today = ((number, key(mutant)) for number, mutant in enumerate(numbered_mutants()))
+    return {n: replace(known[k], number=n) for n, k in today if k[0] != CLAIM and k in known}
 
 
 def main() -> None:

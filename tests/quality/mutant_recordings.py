@@ -94,7 +94,7 @@ class Shelf:
         broken = [r for r in asked if r.clauses.intersection(mutant.clauses)]
         others = [r for r in asked if r not in broken]
         others.sort(key=lambda r: (not r.path.stem.startswith("by_hand"), bool(r.clauses)))
-        return broken[:MOST] + others[: 3 * MOST]
+        return broken[:MOST] + others[: 2 * MOST]
 
     def service(self, number: int) -> str:
         """The service by which a recording shows the row."""

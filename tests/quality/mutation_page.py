@@ -50,8 +50,8 @@ def reason(fate: Fate) -> str:
 
 
 UNSEEN = (
-    "power, interlocks, calibration and who holds a device may change at any instant, and no message tells of "
-    "it (RP-18): what one message shows of them contradicts no other one"
+    "power, interlocks, calibration and who holds a device may change at any instant, and no message tells "
+    "of it (RP-18): what one message shows of them contradicts no other one"
 )
 REASONS: dict[tuple[str, str], str] = {
     (
