@@ -4,8 +4,8 @@
 
 One line is printed for each mutant that nothing kills. ``--write`` writes docs/mutation.md and the table that
 it is made from; ``--every N`` takes only each N-th mutant; ``--kept FILE`` keeps what becomes of each, and
-judges only those anew that were alive: for a run that goes on, or one with more recordings or rules. Two processes
-share the work; the clock depends on the machine, the result does not.
+judges only those anew that were alive: for a run that goes on, or one with more recordings or rules. Two
+processes share the work; the clock depends on the machine, the result does not.
 """
 
 from __future__ import annotations
