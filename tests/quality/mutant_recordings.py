@@ -31,6 +31,7 @@ FREE, MESSAGES = 12, 40
 MOST = 14
 ASKED_IN = {shown: service for service, names in LOOKS.items() for shown in names} | {
     "downloadSegmentAsked": "downloadSegment",
+    "uploadRefused": "initiateUploadSequence",
     "terminateDownloadSequenceAsked": "terminateDownloadSequence",
     "stateAfterFailure": "start",
 }

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mutation_score import AUDIT, CHECK, CLAIM, EQUAL, OPEN, Fate
-from robot_mutation import CHANGED
+from robot_mutation import CHANGED, DROPPED
 
 
 def share(part: int, whole: int) -> str:
@@ -69,6 +69,10 @@ REASONS: dict[tuple[str, str], str] = {
         "devices_change: interlocks_violated",
     ): "which interlocks are violated is free, and so "
     "is whether any is: the changed rule allows the same states by other choices, of which Z3 is not asked",
+    (
+        DROPPED,
+        "bound_domains: attributes.domains (2)",
+    ): "who shows other domains breaks the condition before it, too, wherever it is known which they are",
     **{
         ("", f"{view}: {rule}"): UNSEEN
         for view, rules in {
