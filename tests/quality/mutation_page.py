@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mutation_score import AUDIT, CHECK, CLAIM, EQUAL, OPEN, Fate
-from robot_mutation import CHANGED, DROPPED
+from robot_mutation import CHANGED, DROPPED, EVENT, OBSERVATION
 
 
 def share(part: int, whole: int) -> str:
@@ -45,10 +45,17 @@ def page(fates: Sequence[Fate]) -> str:
 
 def reason(fate: Fate) -> str:
     """Why it lives, as far as it is known."""
-    known = REASONS.get((fate.kind, fate.place)) or REASONS.get(("", fate.place)) or fate.by
-    return f": {known}" if known else ""
+    named = REASONS.get((fate.kind, fate.place)) or REASONS.get(("", fate.place))
+    return f": {fate.by or named or OF_KIND.get(fate.what, 'not known')}"
 
 
+OF_KIND = {
+    EVENT: "what an event needs may come and go between two messages: the audit tells only a "
+    "notification for which no instant can be found, and one that is missing where all instants need it",
+    OBSERVATION: "no recording at hand breaks this condition alone: what contradicts it may have changed "
+    "unseen, or breaks another condition, too",
+}
+"""Why mutants live of which nothing more is known."""
 UNSEEN = (
     "power, interlocks, calibration and who holds a device may change at any instant, and no message tells "
     "of it (RP-18): what one message shows of them contradicts no other one"
