@@ -31,4 +31,8 @@ def write(fates: Sequence[Fate]) -> None:
 def read() -> list[Fate]:
     """The fates that were kept."""
     lines = TABLE.read_text(encoding="utf-8").splitlines()[1:]
-    return [Fate(n, *line.split("\t"), 0.0) for n, line in enumerate(lines)]  # type: ignore[arg-type]
+    return [_fate(number, *line.split("\t")) for number, line in enumerate(lines)]
+
+
+def _fate(number: int, what: str, kind: str, place: str, fate: str, by: str) -> Fate:
+    return Fate(number, what, kind, place, fate, by, 0.0)
