@@ -26,6 +26,9 @@ from mmsverify.symbolic.overlap import Coverage
 FIRST_LOOK, SECOND_LOOK, LONG_LOOK, WHOLE_SCOPE = 40_000, 100_000, 400_000, 200_000
 """States to see in a world: between attempts at a proof, each harder than the last; in a scope asked for."""
 
+NEAR_LOOK = 100_000
+"""States to see breadth first, in the smallest world, after the first of the looks below."""
+
 FAR_LOOKS = (8_000, 60_000, 250_000)
 """States to see in a world while witnesses under a profile are looked for: of all claims at once, then of
 those to which the same variables matter."""
@@ -194,6 +197,8 @@ class _Check:
             for world in worlds:
                 wanted = [c for c in self._open(claims) if c.kind == "sometimes"]
                 self.explorer.reach(wanted, world, states=states, together=number == 0)
+            if number == 0:  # what is near, and yet shows nothing new
+                self._look([c for c in claims if c.kind == "sometimes"], worlds[:1], NEAR_LOOK)
 
     def _open(self, claims: Sequence[Claim]) -> list[Claim]:
         settled = self.proofs.proved | self.explorer.runs.keys() | self.refuted

@@ -22,9 +22,11 @@ SHARING = {"name": "OTHER", "control": "NORMAL", "domains": ["TASK"], "deletable
 
 
 def worlds(profile: Mapping[str, Any] | None) -> Iterator[dict[str, Any]]:
-    """Sizes and profile of each world; a user's profile keeps all that it predefines, and room for more."""
+    """Sizes and profile of each world; a user's profile keeps all that it predefines, without and with more."""
     if profile is not None:
         given = named(profile)
+        if given["PI"]:
+            yield {"sizes": {"PI": given["PI"]}, "profile": profile}
         yield {"sizes": {"PI": given["PI"] + 1}, "profile": profile}
         yield {
             "sizes": {"PI": given["PI"] + 1, "Domain": given["Domain"] + 1, "Upload": 1},
