@@ -42,7 +42,7 @@ class Mended:
     def _mending(self, parting: Parting) -> Mending:
         """The reading of the step where it has one of its own, else that of the declaration."""
         repair = self.model.repairs.get(parting.declared)
-        readings = [r for r in parting.clause.readings if r.startswith("RP-")]
+        readings = [r for r in parting.clause.readings if r.startswith(("RP-", "VR-"))]
         clauses, because = parting.clause.ids, parting.says
         if repair is not None:
             readings = readings or list(repair.mends.readings)

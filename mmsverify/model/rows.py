@@ -24,7 +24,7 @@ PLUS, MINUS, SHOWN = "result(+)", "result(-)", "shown"
 
 @dataclass(frozen=True, slots=True)
 class Clause:
-    """A citation: ids of the clause register, beside them base assumptions (``B-``), readings (``RP-``)."""
+    """A citation: ids of the clause register, and base assumptions (``B-``), readings (``RP-``, ``VR-``)."""
 
     ids: tuple[str, ...]
     readings: tuple[str, ...] = ()
@@ -32,7 +32,7 @@ class Clause:
     @staticmethod
     def of(*cited: str) -> Clause:
         """Sort ids into clauses and readings by their prefix."""
-        readings = tuple(c for c in cited if c.startswith(("B-", "RP-")))
+        readings = tuple(c for c in cited if c.startswith(("B-", "RP-", "VR-")))
         return Clause(tuple(c for c in cited if c not in readings), readings)
 
     def __add__(self, other: Clause) -> Clause:

@@ -6,11 +6,11 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-CITED = re.compile(r'"((?:RP-\d\d)|(?:B-[A-Z-]+))"')
+CITED = re.compile(r'"((?:(?:RP|VR)-\d\d)|(?:B-[A-Z-]+))"')
 
 
 def cited() -> list[str]:
-    files = [*ROOT.glob("models/**/*.py"), *ROOT.glob("mmsverify/audit/*.py")]
+    files = [*ROOT.glob("models/**/*.py"), *ROOT.glob("mmsverify/audit/**/*.py")]
     return sorted({found for path in files for found in CITED.findall(path.read_text(encoding="utf-8"))})
 
 
