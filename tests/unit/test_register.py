@@ -68,6 +68,12 @@ def row(name: str, checks: str = "model", reason: str = "", because: str = "") -
     return "\t".join((name, "1", "invariant", checks, f"{name} holds.", reason, because))
 
 
+@pytest.mark.parametrize("reading", ["B-FAIL", "RP-02", "VR-02"])
+def test_a_reading_or_an_assumption_is_no_statement(reading: str) -> None:
+    assert Clause.of("S-VR-1", reading) == Clause(("S-VR-1",), (reading,))
+    assert [clause for _, clause in citations([reading], "own")] == []
+
+
 def test_every_kind_of_declaration_tells_what_it_cites() -> None:
     assert told(Switch) == {
         ("variable", "on", ("S-1-a",)),
