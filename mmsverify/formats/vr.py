@@ -128,7 +128,10 @@ def decode(data: bytes) -> Sample:
 
 def encode(cells: Mapping[str, Number]) -> bytes:
     """A ``vr.Sample`` message of these cells, in their order."""
-    return json.dumps(cells, separators=(",", ":"), allow_nan=False).encode()
+    return _WRITTEN(cells).encode()
+
+
+_WRITTEN = json.JSONEncoder(separators=(",", ":"), allow_nan=False).encode
 
 
 class _Object(list[tuple[str, Any]]):

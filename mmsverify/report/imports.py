@@ -12,7 +12,7 @@ SCHEMA = "mmsverify.import/1"
 
 
 class Unread(Protocol):
-    """A frame that could not be read; ``packet`` counts from 1 (0: the file as a whole)."""
+    """A frame, or a line of a table, that could not be read: ``packet`` counts from 1 (0: the whole file)."""
 
     @property
     def packet(self) -> int: ...
@@ -58,7 +58,11 @@ def render_text(inputs: Sequence[Imported]) -> str:
 def _lines(entry: Imported) -> Iterator[str]:
     taken = ", ".join(f"{number} {kind}" for kind, number in entry.pdus.items() if number) or "no"
     unread = f"; {len(entry.undecoded)} undecoded" if entry.undecoded else ""
-    yield f"{printable(entry.path)}: {counted(entry.frames, 'frame')}, {taken} PDUs{unread}"
+    if entry.pdus.get("vr"):
+        yield f"{printable(entry.path)}: {counted(entry.pdus['vr'], 'VR sample')}{unread}"
+    else:
+        yield f"{printable(entry.path)}: {counted(entry.frames, 'frame')}, {taken} PDUs{unread}"
     for fault in entry.undecoded:
-        place = f"packet {fault.packet}" if fault.packet else "whole file"
+        unit = "line" if fault.layer == "csv" else "packet"
+        place = f"{unit} {fault.packet}" if fault.packet else "whole file"
         yield f"  {place}  {printable(fault.layer)}  {printable(fault.reason)}"

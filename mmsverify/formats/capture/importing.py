@@ -1,10 +1,12 @@
-"""Captures to a trace: opens the files, keeps count of what was read and what could not be read."""
+"""Captures and tables to a trace: what was read, and what could not be read."""
 
 from __future__ import annotations
 
+import itertools
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from mmsverify.errors import InputError
 from mmsverify.formats.capture.conversation import (
@@ -19,8 +21,10 @@ from mmsverify.formats.capture.faults import Fault, UnreadableError
 from mmsverify.formats.capture.link import LINKS, Segment, segment_of
 from mmsverify.formats.capture.packets import Capture, Packet
 from mmsverify.formats.capture.tcp import Connection, Connections, Happening
+from mmsverify.formats.csv_samples import CsvSamples, Tables, is_csv
 from mmsverify.formats.mcap_write import TraceWriter
 from mmsverify.formats.trace import Channel, Role
+from mmsverify.formats.vr import encode
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,29 +52,75 @@ def import_captures(
     *,
     ports: Ports | None = None,
     hosts: Mapping[str, str] | None = None,
+    tables: Tables | None = None,
 ) -> list[ImportedInput]:
-    """Write the MMS PDUs and Modbus ADUs of captures into one trace; connections keep distinct names.
+    """Write the MMS PDUs and Modbus ADUs of captures, and the VR samples of tables, into one trace.
 
-    ``hosts`` names VMDs and controllers by address (``10.0.0.5`` or ``10.0.0.5:102``). A capture that cannot
-    be read is reported with its reason and no frames; raises ``InputError`` where none could be read.
+    Connections and controllers keep distinct names. ``hosts`` names VMDs and controllers by address
+    (``10.0.0.5`` or ``10.0.0.5:102``). A file that cannot be read is reported with its reason; raises
+    ``InputError`` where none could be read.
     """
-    names = Names(dict(hosts or {}))
+    names, controllers = Names(dict(hosts or {})), _Controllers(tables or Tables())
     done: list[ImportedInput] = []
     errors: list[InputError] = []
     for path in paths:
+        part = _Table(path, writer, controllers) if is_csv(path) else None
         try:
-            done.append(_Import(path, writer, ports or Ports(), names).run())
+            done.append(part.run() if part else _Import(path, writer, ports or Ports(), names).run())
         except InputError as error:
             errors.append(error)
-            fault = Undecoded(0, "file", error.cause)
-            done.append(ImportedInput(os.fspath(path), 0, _counts(), [fault]))
+            samples = part.samples if part else 0
+            done.append(ImportedInput(os.fspath(path), samples, _counts(vr=samples), [_unread(error, path)]))
     if errors and len(errors) == len(done):
         raise errors[0]
     return done
 
 
-def _counts(mms: int = 0, modbus: int = 0) -> dict[str, int]:
-    return {"mms": mms, "modbus": modbus, "vr": 0}
+def _unread(error: InputError, path: str | os.PathLike[str]) -> Undecoded:
+    """Why a file could not be read; of a table, the line, which ``place`` names after the path."""
+    line = error.place.removeprefix(f"{os.fspath(path)}:")
+    if line.isdecimal():
+        return Undecoded(int(line), "csv", error.cause)
+    told = f"{error.cause} ({error.cure})" if is_csv(path) and error.cure else error.cause
+    return Undecoded(0, "file", told)
+
+
+def _counts(mms: int = 0, modbus: int = 0, vr: int = 0) -> dict[str, int]:
+    return {"mms": mms, "modbus": modbus, "vr": vr}
+
+
+@dataclass(slots=True)
+class _Controllers:
+    """The names of the controllers whose tables are read: two files of one name are two controllers."""
+
+    tables: Tables
+    _taken: set[str] = field(default_factory=set)
+
+    def channel(self, path: str | os.PathLike[str]) -> Channel:
+        """The channel for the samples of one table."""
+        name = self.tables.controller or self._free(Path(path).stem)
+        return Channel.vr(name, self.tables.sampling)
+
+    def _free(self, stem: str) -> str:
+        names = (stem if number == 1 else f"{stem}-{number}" for number in itertools.count(1))
+        name = next(name for name in names if name not in self._taken)
+        self._taken.add(name)
+        return name
+
+
+@dataclass(slots=True)
+class _Table:
+    path: str | os.PathLike[str]
+    writer: TraceWriter
+    controllers: _Controllers
+    samples: int = 0
+
+    def run(self) -> ImportedInput:
+        channel = self.controllers.channel(self.path)
+        for sample in CsvSamples(self.path, self.controllers.tables.asked):
+            self.writer.add(sample.time, channel, encode(sample.cells))
+            self.samples += 1
+        return ImportedInput(os.fspath(self.path), self.samples, _counts(vr=self.samples), [])
 
 
 @dataclass(slots=True)
