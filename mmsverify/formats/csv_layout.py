@@ -22,6 +22,8 @@ _TIME_NAMES = {
     "time", "times", "timestamp", "time stamp", "time_stamp", "datetime", "date time", "date_time",
     "date/time", "date and time", "t", "second", "seconds", "zeit", "时间", "时间戳", "日期时间",
 }  # fmt: skip
+_DATE_NAMES = {"date", "datum", "日期"}
+_MILLISECOND_NAMES = {"millisecond", "milliseconds", "msec", "毫秒"}
 _WITH_UNIT = re.compile(r"(.*?)(?:\s*[(\[]\s*([^()\[\]]*)\s*[)\]]|(?:\s*[/,]\s*|_|\s)(\w+))", re.DOTALL)
 _COMMENT = re.compile(r"\s*(?:#|%|//)+\s*")
 
@@ -42,7 +44,10 @@ class Asked:
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """How to read the rows: columns count from 0, lines from 1; ``header`` is empty where there is none."""
+    """How to read the rows: columns count from 0, lines from 1; ``header`` is empty where there is none.
+
+    ``date`` and ``milliseconds`` are columns of their own that operator panels write beside a time of day.
+    """
 
     delimiter: str
     first_line: int
@@ -50,6 +55,8 @@ class Layout:
     time: int
     unit: str
     cells: tuple[tuple[int, str], ...]
+    date: int | None = None
+    milliseconds: int | None = None
 
     def column(self, number: int) -> str:
         """A column as a sentence calls it."""
@@ -171,22 +178,26 @@ class _Columns:
     place: str
 
     def layout(self, delimiter: str, rows: Sequence[Row], first: int) -> Layout:
-        time = self._time()
-        unit, first = self._unit(time, rows, first)
+        below = rows[first] if self.header and first < len(rows) else ()
+        time = self._time(below)
+        named = _unit_of(self.header[time]) if time < len(self.header) else ""
+        if time < len(below) and unit_word(below[time]):
+            named, first = unit_word(below[time]), first + 1
         cells = self._cells(time)
-        return Layout(delimiter, first + 1, self.header, time, self.asked.unit or unit or "s", cells)
+        date, milliseconds = self._beside(time, _DATE_NAMES), self._beside(time, _MILLISECOND_NAMES)
+        unit = self.asked.unit or named or "s"
+        return Layout(delimiter, first + 1, self.header, time, unit, cells, date, milliseconds)
 
-    def _unit(self, time: int, rows: Sequence[Row], first: int) -> tuple[str, int]:
-        """The unit of the time, out of the header or a line of units below it; where the rows begin."""
-        below = rows[first][time] if first < len(rows) and time < len(rows[first]) else ""
-        if self.header and unit_word(below):
-            return unit_word(below), first + 1
-        return _unit_of(self.header[time]) if time < len(self.header) else "", first
+    def _beside(self, time: int, names: set[str]) -> int | None:
+        """A column that tells another part of the time."""
+        return next((at for at, n in enumerate(self.header) if at != time and n.casefold() in names), None)
 
-    def _time(self) -> int:
+    def _time(self, below: Row) -> int:
+        """The column of the time; it may be the line of units ``below`` the header that shows it."""
         if self.asked.time:
             return self._at(self.asked.time, "--time")
         times = [at for at, name in enumerate(self.header) if _time_name(name)]
+        times = times or [at for at, text in enumerate(below) if unit_word(text)]
         if not times:
             self._refuse("no column is that of the time", f"say which with --time; {self._listed()}")
         return times[0]

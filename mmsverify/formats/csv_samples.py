@@ -17,12 +17,13 @@ from typing import Literal
 from mmsverify.errors import InputError
 from mmsverify.formats.csv_layout import LOOKED_AT, Asked, Layout, is_comment, layout_of
 from mmsverify.formats.csv_text import opened
-from mmsverify.formats.csv_values import nanoseconds, number
+from mmsverify.formats.csv_values import is_time_of_day, nanoseconds, number
 from mmsverify.formats.vr import Number
 
 SUFFIXES = (".csv", ".tsv", ".txt")
 
 _LATEST = (1 << 64) - 1  # ns, what a trace can hold
+_DATE_CURE = "write dates as 2026-01-31 or 31.01.2026"
 _GAP_CURE = "write a number, or nothing where nothing was measured"
 
 
@@ -74,7 +75,7 @@ class CsvSamples:
         shift, last = 0, None
         for line, row in self._rows(layout, lines, skipped):
             time = self._time(layout, row, line)
-            if last is None:
+            if last is None:  # the first row
                 shift = max(-time, 0)
             elif time < last:
                 cure = "sort the rows by time"
@@ -85,6 +86,10 @@ class CsvSamples:
                     line, f"{layout.column(layout.time)}: the time is out of range", "mend --unit"
                 )
             yield CsvSample(line, time + shift, self._cells(layout, row, line))
+        if last is None:
+            raise InputError(
+                "has no rows below its header", place=self.path, cure="export the recording again"
+            )
 
     def _rows(self, layout: Layout, lines: Iterator[str], skipped: int) -> Iterator[tuple[int, list[str]]]:
         """The rows with the line on which each begins; a quoted text may go on over several."""
@@ -104,12 +109,16 @@ class CsvSamples:
         if len(row) > len(layout.header) > 0 and any(text.strip() for text in row[len(layout.header) :]):
             cure = "decimal commas need another delimiter, such as a semicolon"
             raise self._error(line, f"{len(row)} cells under {len(layout.header)} headers", cure)
-        text = row[layout.time] if layout.time < len(row) else ""
+        text = _at(row, layout.time)
+        within: int | None = 0
+        if is_time_of_day(text):
+            text = f"{_at(row, layout.date)} {text}".strip()
+            within = nanoseconds(_at(row, layout.milliseconds) or "0", "ms")
         time = nanoseconds(text, layout.unit)
-        if time is None:
+        if time is None or within is None:
             cause = f"{layout.column(layout.time)}: {_told(text)} is no time"
-            raise self._error(line, cause, "mend or delete the line")
-        return time
+            raise self._error(line, cause, _DATE_CURE if ":" in text else "mend or delete the line")
+        return time + within
 
     def _cells(self, layout: Layout, row: Sequence[str], line: int) -> dict[str, Number]:
         cells: dict[str, Number] = {}
@@ -124,6 +133,10 @@ class CsvSamples:
 
     def _error(self, line: int, cause: str, cure: str) -> InputError:
         return InputError(cause, place=f"{self.path}:{line}", cure=cure)
+
+
+def _at(row: Sequence[str], column: int | None) -> str:
+    return row[column].strip() if column is not None and column < len(row) else ""
 
 
 def _told(text: str) -> str:

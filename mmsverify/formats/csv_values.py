@@ -59,6 +59,11 @@ def nanoseconds(text: str, unit: str) -> int | None:
     return None
 
 
+def is_time_of_day(text: str) -> bool:
+    """Whether a time lacks its date."""
+    return bool(_TIME_OF_DAY.fullmatch(text.strip()))
+
+
 def _date_time(found: re.Match[str]) -> int | None:
     year, month, day, *clock, _, sign, hours, minutes = found.groups()
     of_day = _time_of_day(*clock)

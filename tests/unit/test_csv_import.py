@@ -13,7 +13,6 @@ import pytest
 from mmsverify.cli import main
 from mmsverify.formats.csv_layout import Asked
 from mmsverify.formats.csv_samples import CsvSamples
-from mmsverify.formats.csv_values import nanoseconds, number
 from mmsverify.formats.mcap import read_trace
 
 MS = 1_000_000
@@ -130,6 +129,26 @@ def test_the_option_tells_the_unit_whatever_the_header_says(unit: str, scale: in
     assert [time for time, _ in said] == [0, 7 * scale]
 
 
+def test_a_line_of_units_shows_which_column_is_the_time() -> None:
+    assert imported("Source,VR0,VR1\nSecond,Value,Value\n0.000,1,1\n0.005,2,1\n0.010,2,2\n") == THREE
+
+
+def test_date_and_milliseconds_may_stand_beside_the_time_of_day() -> None:
+    text = """Date,Time,Millisecond,VR0
+2026/01/05,23:59:59,750,1
+2026/01/06,00:00:00,5,2
+"""
+    times = [time for time, _ in imported(text)]
+    assert times == [1_767_657_599_750 * MS, 1_767_657_600_005 * MS]
+
+
+def test_a_time_with_its_date_or_in_numbers_needs_no_date_beside_it() -> None:
+    assert imported("Date,Time,VR0\nx,1970-01-01 00:00:01,1\nx,2,1\n") == [
+        (1000 * MS, {"C_RunMD": 1}),
+        (2000 * MS, {"C_RunMD": 1}),
+    ]
+
+
 def test_a_table_without_header_is_read_by_numbers() -> None:
     assert (
         imported("1,0,1\n1,5,2\n2,10,2\n", "--time", "2", "--map", "3=C_RunMD,1=VR1", "--unit", "ms") == THREE
@@ -167,45 +186,6 @@ def test_times_below_zero_are_moved_together() -> None:
     assert [time for time, _ in said] == [0, 200 * MS, 350 * MS]
 
 
-@pytest.mark.parametrize(
-    ("text", "unit", "expected"),
-    [
-        ("1764000000.123456789", "s", 1764000000123456789),
-        ("2.5e-3", "ms", 2500),
-        (" 0,5 ", "us", 500),
-        ("-.5", "s", -500 * MS),
-        ("1970-01-01T00:00:01Z", "s", 1000 * MS),
-        ("1970/01/01 00:00:01.5", "ms", 1500 * MS),
-        ("1970-1-1 0:00:01,000000005", "s", 1000 * MS + 5),
-        ("01.02.1970 00:00", "s", 31 * 86_400_000 * MS),
-        ("1970-01-01T01:00:00+01:00", "s", 0),
-        ("1970-01-01T00:00:00-0030", "s", 1_800_000 * MS),
-        ("06:00:00.250", "s", 21_600_250 * MS),
-        ("2026-02-30 00:00:00", "s", None),
-        ("2026-01-01 24:00:00", "s", None),
-        ("2026-01-01", "s", None),
-        ("12:61", "s", None),
-        ("1e9999", "s", None),
-        ("1.000,5", "s", None),
-        ("1_000", "s", None),
-        ("\uff11", "s", None),
-        ("", "s", None),
-    ],
-)
-def test_a_time_is_a_number_or_a_date_and_time(text: str, unit: str, expected: int | None) -> None:
-    assert nanoseconds(text, unit) == expected
-
-
-@pytest.mark.parametrize(
-    ("text", "expected"),
-    [("6.0", 6), ("6,0", 6), ("+6", 6), ("6.", 6), (".5", 0.5), ("1.01E+02", 101), ("6.5", 6.5)]
-    + [(text, None) for text in ("", "x", "nan", "inf", "1e999", "6 V", "0x06", "1,234.5", "TRUE", "\u0666")],
-)
-def test_a_number_is_read_as_controllers_store_it(text: str, expected: float | None) -> None:
-    assert number(text) == expected
-    assert type(number(text)) is type(expected)
-
-
 def test_a_column_of_dates_and_times_is_a_time() -> None:
     said = imported(
         "TimeStamp,VR0\n2026-01-05 06:00:00.250,1\n2026-01-05 06:00:01,2\n", "--time", "TimeStamp"
@@ -221,9 +201,21 @@ def test_a_column_of_dates_and_times_is_a_time() -> None:
             (),
             ":3: column 2 (VR0): 'x' is no number (write a number, or nothing where nothing was measured)",
         ),
-        ("0,1\nx,1\n", (), ":3: column 1 (Time): 'x' is no time (mend or delete the line)"),
-        ("0,1\n,1\n", (), ":3: column 1 (Time): an empty cell is no time (mend or delete the line)"),
-        ("x,1\n1,1\n", (), ":2: column 1 (Time): 'x' is no time (mend or delete the line)"),
+        (
+            "0,1\nx,1\n",
+            (),
+            ":3: column 1 (Time): 'x' is no time (mend or delete the line)",
+        ),
+        (
+            "0,1\n,1\n",
+            (),
+            ":3: column 1 (Time): an empty cell is no time (mend or delete the line)",
+        ),
+        (
+            "x,1\n1,1\n",
+            (),
+            ":2: column 1 (Time): 'x' is no time (mend or delete the line)",
+        ),
         ("2,1\n1,2\n", (), ":3: column 1 (Time): the time goes backwards (sort the rows by time)"),
         ("0,1\n1e11,2\n", (), ":3: column 1 (Time): the time is out of range (mend --unit)"),
         (
@@ -235,6 +227,12 @@ def test_a_column_of_dates_and_times_is_a_time() -> None:
             '0,1\n1,"2\n',
             (),
             ":3: cannot be split into cells: unexpected end of data (mend its quotation marks)",
+        ),
+        ("", (), ": has no rows below its header (export the recording again)"),
+        (
+            "1/2/2026 6:00:00,1\n",
+            (),
+            ":2: column 1 (Time): '1/2/2026 6:00:00' is no time (write dates as 2026-01-31 or 31.01.2026)",
         ),
         ("0,1\n", ("--time", "Zeit"), ": has no column 'Zeit' (mend --time; its columns: Time, VR0)"),
         ("0,1\n", ("--map", "3=VR1"), ": has no column '3' (mend --map; its columns: Time, VR0)"),
