@@ -132,7 +132,7 @@ def _mapped(text: str) -> Iterator[tuple[str, str]]:
     from mmsverify.formats.csv_layout import cell_names
     from mmsverify.formats.vr import cell
 
-    column, taken = "", set[str]()
+    column, taken = "", dict[str, str]()
     for piece in text.split(",") if text else ():
         column, equals, name = f"{column},{piece}".removeprefix(",").rpartition("=")
         if not equals:
@@ -144,7 +144,9 @@ def _mapped(text: str) -> Iterator[tuple[str, str]]:
             raise UsageError(f"{name!r} is no VR cell", place="--map", cure=cure)
         if found.name in taken:
             raise UsageError(f"two columns are {found.name}", place="--map", cure="leave out one")
-        taken.add(found.name)
+        if column in taken.values():
+            raise UsageError(f"column {column!r} is two cells", place="--map", cure="leave out one")
+        taken[found.name] = column
         yield column, found.name
         column = ""
     if column:

@@ -203,7 +203,12 @@ class _Columns:
         return times[0]
 
     def _cells(self, time: int) -> tuple[tuple[int, str], ...]:
-        chosen = {self._at(column, "--map"): name for column, name in self.asked.cells.items()}
+        chosen: dict[int, str] = {}
+        for column, name in self.asked.cells.items():
+            at = self._at(column, "--map")
+            if at in chosen:
+                self._refuse(f"column {at + 1} is {chosen[at]} and {name}", "leave one out of --map")
+            chosen[at] = name
         if time in chosen:
             self._refuse(
                 f"column {time + 1} is that of the time and of {chosen[time]}", "mend --time or --map"

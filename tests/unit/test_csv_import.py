@@ -235,6 +235,7 @@ def test_a_column_of_dates_and_times_is_a_time() -> None:
             ":2: column 1 (Time): '1/2/2026 6:00:00' is no time (write dates as 2026-01-31 or 31.01.2026)",
         ),
         ("0,1\n", ("--time", "Zeit"), ": has no column 'Zeit' (mend --time; its columns: Time, VR0)"),
+        ("0,1\n", ("--map", "2=VR0,VR0=VR1"), ": column 2 is C_RunMD and CS_RunSTA (leave one out of --map)"),
         ("0,1\n", ("--map", "3=VR1"), ": has no column '3' (mend --map; its columns: Time, VR0)"),
         (
             "0,1\n",
@@ -284,6 +285,7 @@ def test_what_is_no_table_of_samples_is_refused(
             "--map: 'C_Run' is no VR cell (write it like VR0=C_RunMD; the cells are C_RunMD,",
         ),
         (("--map", "2=VR0,3=C_RunMD"), "--map: two columns are C_RunMD (leave out one)"),
+        (("--map", "2=VR0,2=C_Cmd"), "--map: column '2' is two cells (leave out one)"),
         (("--unit", "min"), "--unit: no unit 'min' here (one of ns, us, ms, s)"),
         (("--controller", "a/b"), "--controller: 'a/b' cannot name a channel (leave out the /)"),
         (("--sampling", "often"), "--sampling: no sampling 'often' here (scan: one row each scan; polled:"),
