@@ -57,13 +57,13 @@ def test_a_conversation_is_told_again_from_its_acts() -> None:
 @pytest.mark.slow
 def test_the_conversations_take_nearly_every_row() -> None:
     """What is never taken proves nothing by not being blamed."""
-    taken = {act.what for seed in range(2000, 2008) for act in conversation(seed, 400).done}
+    taken = {act.what for seed in range(2000, 2016) for act in conversation(seed, 400).done}
     rows = {row_name(row) for row in robot("repaired").actions if row.on.phase in ("response", "internal")}
     rows -= {row for row in rows if row.split("/")[0] in ASSOCIATING}
     assert len(rows & taken) / len(rows) >= LEAST_TAKEN, sorted(rows - taken)
 
 
-LEAST_TAKEN = 0.6
+LEAST_TAKEN = 0.65
 """A ratchet: it may rise, never fall."""
 
 
