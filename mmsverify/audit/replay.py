@@ -6,21 +6,27 @@ What a message means to its device is told in ``device``.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from functools import cached_property
 from typing import Any
 
 from mmsverify.audit.device import Device
 from mmsverify.audit.lookahead import Lookahead, link
 from mmsverify.audit.telling import Place
+from mmsverify.audit.vr import Controller, Numbering, Scans
+from mmsverify.concrete.automaton import Automaton
 from mmsverify.concrete.belief import Belief
 from mmsverify.concrete.belief.coverage import Coverage
 from mmsverify.concrete.belief.partial import OTHER
+from mmsverify.concrete.machine import Machine
+from mmsverify.concrete.scope import scope_for
 from mmsverify.errors import ProfileError, UsageError
 from mmsverify.formats.mcap import McapTrace
 from mmsverify.model import Claim, ModelData, load
 from mmsverify.resources import models_dir
 from mmsverify.results import Finding
 
-ROBOT = "mms-robot"
+ROBOT, FRAMEWORK = "mms-robot", "vr-template"
+SAMPLES = "vr.Sample"
 PROVED = "repaired"
 Tables = Mapping[str, Mapping[str, Any]]
 
@@ -35,24 +41,44 @@ class Replay:
     def __init__(self, trace: McapTrace, tables: Tables, model: str | None, variant: str) -> None:
         self.trace = trace
         self.profile = tables.get(ROBOT, {})
-        self.model: ModelData = load(_robot_model(model), models_dir(), variant)
+        self._asked, self._variant, self._tables = _known(model), variant, tables
+        self.model: ModelData = load(ROBOT, models_dir(), variant)
         self.messages = self.events = self.skipped = 0
         self.coverage: list[Coverage] = []
         self._devices: dict[str, Device] = {}
+        self._controllers: dict[str, Controller] = {}
         self._ahead = Lookahead(trace)
 
     def run(self) -> Iterator[Finding]:
         """The findings, in event order."""
         for message in self.trace:
             self.messages += 1
-            if message.message_encoding == "mms-ber":
+            if message.message_encoding == "mms-ber" and self._asked in (None, ROBOT):
                 self.events += 1
                 yield from self._device(message.metadata.get("vmd", "")).message(message)
+            elif message.schema_name == SAMPLES and self._asked in (None, FRAMEWORK):
+                self.events += 1
+                yield from self._controller(message.metadata.get("controller", "")).sample(message)
             elif (happened := link(message)) is not None:
                 self.events += 1
                 yield from self._device(message.metadata.get("name", "")).link(*happened, message)
             else:
                 self.skipped += 1
+
+    def _controller(self, name: str) -> Controller:
+        if name not in self._controllers:
+            scans, numbering = self._framework
+            self._controllers[name] = Controller(self.trace.path, name, scans, numbering)
+        return self._controllers[name]
+
+    @cached_property
+    def _framework(self) -> tuple[Scans, Numbering]:
+        """The template framework's automaton, and what its numbers mean."""
+        profile = self._tables.get(FRAMEWORK, {})
+        model = load(FRAMEWORK, models_dir(), self._variant)
+        numbering = Numbering(model.options["numbers"], profile.get("sub_action_status", "either"))
+        # A recording may begin at any time, and of a controller that kept its homing while it was off.
+        return Scans(Automaton(Machine(model, scope_for(model, {}, {})))), numbering
 
     def _device(self, vmd: str) -> Device:
         if vmd not in self._devices:
@@ -89,7 +115,8 @@ class Replay:
         return frozenset(device["domain"] for device in devices if device["kind"] == "arm")
 
 
-def _robot_model(model: str | None) -> str:
-    if model not in (None, ROBOT):
-        raise UsageError(f"no model {model!r} replays recordings", place="--model", cure=f"use {ROBOT}")
-    return ROBOT
+def _known(model: str | None) -> str | None:
+    if model not in (None, ROBOT, FRAMEWORK):
+        cure = f"use {ROBOT} or {FRAMEWORK}"
+        raise UsageError(f"no model {model!r} replays recordings", place="--model", cure=cure)
+    return model

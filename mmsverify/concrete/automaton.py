@@ -75,4 +75,3 @@ class Automaton:
     def broken(self, state: int, row: Row) -> tuple[Conjunct, ...]:
         """The conditions of a row that do not hold in a state."""
         return tuple(c for c in row.guard if not self.machine.predicate(c.condition)(self.states[state]))
-

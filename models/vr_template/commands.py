@@ -40,7 +40,12 @@ class Commands(Vocabulary):
     resume = Procedure("V-DO-07", on=response("resume"), steps=[
         do("V-DO-07", paused().becomes(False)), accept("V-DO-07", "V-CMD-07"),
     ])  # fmt: skip
-    serious = [mode().becomes(if_(cuts_in, Mode.ERR_B_INSERT, Mode.ERR_B)), paused().becomes(False), lost().becomes(True), *left]
+    serious = [
+        mode().becomes(if_(cuts_in, Mode.ERR_B_INSERT, Mode.ERR_B)),
+        paused().becomes(False),
+        lost().becomes(True),
+        *left,
+    ]
     on_serious_error = Procedure("V-DO-08", on=response("onErrB", cuts_in), steps=[
         do("V-DO-08", *serious), accept("V-DO-08", "V-CMD-08", "V-SM-ErrB"),
     ])  # fmt: skip

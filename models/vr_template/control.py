@@ -65,7 +65,13 @@ class ControlRepaired(Control):
         "V-NEXT-03a", "VR-10", on=internal("set_next_mode"), when=[mode() == Mode.HOME_RDY, auto_org(), arrived()],
         then=[mode().becomes(Mode.ORG), *left],
         repairs=repaired("VR-10", "V-NEXT-03a", because="after a Stop, or an action of HomeRdy, the machine would move by itself"))  # fmt: skip
-    waiting_for_reset = repaired("VR-11", "V-NEXT-08", "V-NEXT-09a", "V-NEXT-09b", because="the system waits for the command that clears the error")
+    waiting_for_reset = repaired(
+        "VR-11",
+        "V-NEXT-08",
+        "V-NEXT-09a",
+        "V-NEXT-09b",
+        because="the system waits for the command that clears the error",
+    )
     serious_error_ends = Removed(repairs=waiting_for_reset)
     general_error_ends_homed = Removed(repairs=waiting_for_reset)
     general_error_ends = Removed(repairs=waiting_for_reset)

@@ -1,6 +1,17 @@
 """What must hold of the framework, stated from what the text is for (sections on states, commands and errors)."""
 
-from mmsverify.model import MINUS, PLUS, Always, Initially, Sometimes, Step, answered, repaired, service_is, unchanged
+from mmsverify.model import (
+    MINUS,
+    PLUS,
+    Always,
+    Initially,
+    Sometimes,
+    Step,
+    answered,
+    repaired,
+    service_is,
+    unchanged,
+)
 
 from .vocabulary import Mode, Status, Vocabulary
 
@@ -18,7 +29,9 @@ class Properties(Vocabulary):
                             & ~lost() & ~paused() & ~auto_org() & ~arrived(), "V-STA-00")  # fmt: skip
 
     changes = mode().next != mode()
-    homed_before_moving = Always("V-FUN-2", mode().isin(HOMED) >> homed(), says="no mode that needs homing is entered unhomed")
+    homed_before_moving = Always(
+        "V-FUN-2", mode().isin(HOMED) >> homed(), says="no mode that needs homing is entered unhomed"
+    )
     new_home_after_serious_error = Always("V-SM-5", lost() >> ~mode().isin(HOMED), "V-SM-4",
                                           says="after a serious error nothing but debugging is possible before a new Home")  # fmt: skip
     serious_error_waits = Step("V-DEV-3", ((mode() == Mode.ERR_B) & changes) >> (service_is("resetErr") | mode().next.isin(ERRORS)),
@@ -35,7 +48,11 @@ class Properties(Vocabulary):
                             says="the automatic flow begins in OrgRdy only")  # fmt: skip
     no_home_while_running = Step("V-CHK-3", mode().isin([Mode.RUN, Mode.RUN_SUB]) >> (mode().next != Mode.HOME),
                                  says="no Home while the automatic flow runs")  # fmt: skip
-    debug_action_from_waiting = Step("V-SUBD-2", ((mode().next == Mode.DBG_SUB) & changes) >> waits(), says="actions 101-199 begin in a waiting state")
+    debug_action_from_waiting = Step(
+        "V-SUBD-2",
+        ((mode().next == Mode.DBG_SUB) & changes) >> waits(),
+        says="actions 101-199 begin in a waiting state",
+    )
     home_action_from_homed = Step("V-SUBH-2", ((mode().next == Mode.HOME_SUB) & changes) >> mode().isin([Mode.HOME_RDY, Mode.ORG_RDY]),
                                   says="actions 201-299 begin in HomeRdy or OrgRdy")  # fmt: skip
     origin_action_from_origin = Step("V-SUBO-2", ((mode().next == Mode.ORG_SUB) & changes) >> (mode() == Mode.ORG_RDY),
@@ -52,7 +69,11 @@ class Properties(Vocabulary):
                               says="in a waiting state nothing moves without a command, but on to the origin after homing")  # fmt: skip
     modes_change_as_commanded = Step("V-CTL02-N", changes >> (answered(PLUS) | service_is("set_next_mode")), "V-CMD02-2c",
                                      says="the mode changes by commands and by SetNextMode only")  # fmt: skip
-    status_waits_for_mode = Step("V-STA-N", ~service_is("set_pre_mode") >> unchanged(status), says="the status follows the mode by SetPreMode only")
+    status_waits_for_mode = Step(
+        "V-STA-N",
+        ~service_is("set_pre_mode") >> unchanged(status),
+        says="the status follows the mode by SetPreMode only",
+    )
 
     reaches_run = Sometimes("V-SM-Run", mode() == Mode.RUN)
     reaches_stop = Sometimes("V-SM-Stop", mode() == Mode.STOP)

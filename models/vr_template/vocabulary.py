@@ -83,11 +83,17 @@ class Vocabulary(Model):
     arrived = Relation(doc="homing has ended just now, and nothing has been commanded since")
 
     reported = Derived(
-        if_(mode() == Mode.RUN, if_(paused(), Status.RUN_PAUSE, Status.RUN_AUTO), looked_up(mode(), STATUS_OF, otherwise=status())),
+        if_(
+            mode() == Mode.RUN,
+            if_(paused(), Status.RUN_PAUSE, Status.RUN_AUTO),
+            looked_up(mode(), STATUS_OF, otherwise=status()),
+        ),
         doc="the status that SetPreMode sets",
     )
 
-    waits = Derived(mode().isin([Mode.DBG_RDY, Mode.HOME_RDY, Mode.ORG_RDY]), doc="one of the three waiting states")
+    waits = Derived(
+        mode().isin([Mode.DBG_RDY, Mode.HOME_RDY, Mode.ORG_RDY]), doc="one of the three waiting states"
+    )
     acts_by_itself = Derived(
         mode().isin([Mode.HOME, Mode.ORG, Mode.RUN, Mode.DBG_SUB, Mode.HOME_SUB, Mode.ORG_SUB, Mode.RUN_SUB])
     )

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from mmsverify.concrete.automaton import Automaton, States
 from mmsverify.model import Row
 
-PRE, RESET = "set_pre_mode", "resetErr"
+PRE, NEXT, RESET = "set_pre_mode", "set_next_mode", "resetErr"
 
 
 class Scans:
@@ -65,4 +65,6 @@ class Scans:
     def agreeing(self, states: States, shown: Mapping[str, frozenset[str]]) -> States:
         """The states that hold what is shown: for each variable, one of these words."""
         value = self.automaton.value
-        return frozenset(s for s in states if all(str(value(s, name)) in words for name, words in shown.items()))
+        return frozenset(
+            s for s in states if all(str(value(s, name)) in words for name, words in shown.items())
+        )

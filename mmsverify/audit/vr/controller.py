@@ -1,0 +1,168 @@
+"""One controller: its samples go in, findings come out.
+
+The belief is a set of states of the automaton: those that agree with the samples so far. A sample shows the
+cells that it names and, of the others, what they held last.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from mmsverify.audit.vr.blame import Blaming
+from mmsverify.audit.vr.rules import VR_RULES
+from mmsverify.audit.vr.scans import RESET, Scans
+from mmsverify.concrete.automaton import States
+from mmsverify.errors import DecodeError
+from mmsverify.formats import vr
+from mmsverify.formats.trace import TraceMessage
+from mmsverify.results import Finding
+
+MODE, STATUS, COMMAND, HOMED = "C_RunMD", "CS_RunSTA", "C_Cmd", "CF_Home"
+CELL_OF = {"mode": MODE, "status": STATUS}
+SCAN = "scan"
+
+Numbers = Mapping[str, Any]
+
+
+class Numbering:
+    """What the numbers in cells mean, for one profile; the model says it."""
+
+    def __init__(self, numbers: Numbers, sub_actions: str) -> None:
+        self.modes = {number: frozenset({str(mode)}) for number, mode in numbers["mode"].items()}
+        listed = numbers["status"](sub_actions)
+        self.statuses = {number: frozenset(map(str, meant)) for number, meant in listed.items()}
+        self.commands: Mapping[int, str] = numbers["command"]
+
+    def number(self, name: str, word: str) -> str:
+        """A word of mode or status as the number that its cell holds, or the numbers."""
+        table = self.modes if name == "mode" else self.statuses
+        return "|".join(str(n) for n, words in table.items() if word in words) or word
+
+
+class Controller:
+    """The replay of one controller's samples."""
+
+    def __init__(self, path: str, name: str, scans: Scans, numbering: Numbering) -> None:
+        self.path, self.name = path, name
+        self._scans, self._numbering, self._blaming = scans, numbering, Blaming(scans)
+        self._states: States = scans.automaton.all
+        self._cells: dict[str, float] = {}
+        self._told: dict[str, float] = {}
+        self._commands: tuple[float | None, float | None] = (None, None)
+        self._changed: int | None = None
+        self._two_tables = False
+        self._begun = False
+
+    def sample(self, message: TraceMessage) -> Iterator[Finding]:
+        """The findings of one sample."""
+        try:
+            said = vr.decode(message.data)
+        except DecodeError as error:
+            yield self._breach(message, "vr.undecodable", cause=error.cause)
+            return
+        for bad in said.bad:
+            yield self._breach(message, "vr.cell", cell=bad.name, found=bad.found)
+        self._cells |= said.cells
+        self._commands = self._commands[1], self._cells.get(COMMAND)
+        shown: dict[str, frozenset[str]] = {}
+        yield from self._numbers(message, shown)
+        yield from self._follow(message, shown, self._cells.get(HOMED) if HOMED in said.cells else None)
+
+    def _numbers(self, message: TraceMessage, shown: dict[str, frozenset[str]]) -> Iterator[Finding]:
+        """What mode and status mean; a number without a meaning is told once, and shows nothing."""
+        for name, table in (("mode", self._numbering.modes), ("status", self._numbering.statuses)):
+            number = self._cells.get(CELL_OF[name])
+            if number is None:
+                continue
+            meant = table.get(int(number)) if number == int(number) else None
+            if meant is not None:
+                shown[name] = meant
+                self._told.pop(name, None)
+                if len(meant) > 1 and not self._two_tables:
+                    self._two_tables = True
+                    yield self._breach(message, "status.two-tables", found=vr.plain(number))
+            elif self._told.get(name) != number:
+                self._told[name] = number
+                yield self._breach(message, f"{name}.unknown", found=vr.plain(number))
+
+    # What may follow.
+
+    def _follow(
+        self, message: TraceMessage, shown: Mapping[str, frozenset[str]], homed: float | None
+    ) -> Iterator[Finding]:
+        scans, earlier = self._scans, self._states
+        scanned = message.metadata.get("sampling") == SCAN
+        if not self._begun:
+            reached = earlier
+        elif scanned:
+            seen = self._seen()
+            reached = scans.once(earlier, resets=seen is None or RESET in seen)
+        else:
+            reached = scans.often(earlier)
+        self._begun = True
+        agreeing = scans.agreeing(reached, shown)
+        if not agreeing:
+            yield self._violation(message, reached, shown, scanned=scanned)
+            agreeing = scans.agreeing(scans.automaton.all, shown)
+            if not agreeing:
+                agreeing = scans.agreeing(
+                    scans.automaton.all, {k: v for k, v in shown.items() if k == "mode"}
+                )
+        if homed is not None:
+            flagged = {"homed": frozenset({str(bool(homed))})}
+            agreeing = (
+                scans.agreeing(agreeing, flagged) or agreeing
+            )  # the flag may be set a little earlier, or later
+        if scans.agreeing(earlier, shown) != earlier:
+            self._changed = message.index
+        self._states = agreeing
+
+    def _seen(self) -> frozenset[str] | None:
+        """The commands in C_Cmd, now or a sample ago; ``None`` where it is not recorded."""
+        if COMMAND not in self._cells:
+            return None
+        commands = self._numbering.commands
+        return frozenset(
+            commands[int(number)]
+            for number in self._commands
+            if number is not None and int(number) in commands
+        )
+
+    # What is told.
+
+    def _violation(
+        self, message: TraceMessage, reached: States, shown: Mapping[str, frozenset[str]], *, scanned: bool
+    ) -> Finding:
+        scans = self._scans
+        by_mode = scans.agreeing(reached, _mode_of(shown))
+        if "mode" in shown and not by_mode:
+            (word,) = shown["mode"]
+            seen = self._seen() if scanned else None
+            found = self._blaming.of_mode(self._states if scanned else reached, word, seen)
+        else:
+            word = next(iter(shown.get("mode", ("unknown",))))
+            found = self._blaming.of_status(by_mode or reached, word)
+        cell = CELL_OF[found.about]
+        return Finding(
+            path=self.path, vmd=self.name, index=message.index, time=message.time, topic=message.topic,
+            severity=found.severity, rule=found.rule, message=found.says,
+            clauses=found.clause.ids, readings=found.clause.readings,
+            expected=tuple(f"{cell}={self._numbering.number(found.about, word)}" for word in found.expected),
+            observed=f"{cell}={vr.plain(self._cells[cell])}",
+            before=self._blaming.before(self._states),
+            related=() if self._changed is None else (self._changed,),
+        )  # fmt: skip
+
+    def _breach(self, message: TraceMessage, name: str, **words: Any) -> Finding:
+        rule = VR_RULES[name]
+        return Finding(
+            path=self.path, vmd=self.name, index=message.index, time=message.time, topic=message.topic,
+            severity=rule.severity, rule=rule.id, clauses=rule.clause.ids, readings=rule.clause.readings,
+            message=rule.says.format(**words),
+            expected=tuple(each.format(**words) for each in rule.expects), observed=rule.observed.format(**words),
+        )  # fmt: skip
+
+
+def _mode_of(shown: Mapping[str, frozenset[str]]) -> dict[str, frozenset[str]]:
+    return {name: words for name, words in shown.items() if name == "mode"}
