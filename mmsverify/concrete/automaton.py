@@ -1,14 +1,14 @@
 """A small model as an explicit automaton: all its states, and from each the states that its rows lead to.
 
-For models of some thousand states without elements, whose recordings are long: what a set of states becomes is
-worked out once, and looked up from then on.
+For models of some thousand states without elements, whose recordings are long: what a set of states becomes
+is worked out once, and looked up from then on.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cache
 
 from mmsverify.concrete.layout import State
 from mmsverify.concrete.machine import Machine
@@ -66,12 +66,12 @@ class Automaton:
             states = grown
         return states
 
-    @lru_cache(maxsize=None)  # noqa: B019 - lives as long as the automaton, which is kept
+    @cache  # noqa: B019 - lives as long as the automaton, which is kept
     def value(self, state: int, name: str) -> Value:
         """What a variable without arguments holds."""
         return self.machine.layout.read(self.states[state])[name, ()]
 
-    @lru_cache(maxsize=None)  # noqa: B019
+    @cache  # noqa: B019
     def broken(self, state: int, row: Row) -> tuple[Conjunct, ...]:
         """The conditions of a row that do not hold in a state."""
         return tuple(c for c in row.guard if not self.machine.predicate(c.condition)(self.states[state]))

@@ -160,7 +160,8 @@ class Controller:
             path=self.path, vmd=self.name, index=message.index, time=message.time, topic=message.topic,
             severity=rule.severity, rule=rule.id, clauses=rule.clause.ids, readings=rule.clause.readings,
             message=rule.says.format(**words),
-            expected=tuple(each.format(**words) for each in rule.expects), observed=rule.observed.format(**words),
+            expected=tuple(each.format(**words) for each in rule.expects),
+            observed=rule.observed.format(**words),
         )  # fmt: skip
 
 

@@ -11,11 +11,28 @@ VR_RULES: Mapping[str, Rule] = {
     for listed in (
         rule("vr.undecodable", "this is no sample of VR cells: {cause}", "V-VR-N"),
         rule("vr.cell", "{cell} is {found}, not a number", "V-VR-N"),
-        rule("mode.unknown", "C_RunMD is {found}, and no mode has this number", "V-SM-0", "V-CTL02-N",
-             expects=("C_RunMD=0..16",), observed="C_RunMD={found}"),
-        rule("status.unknown", "CS_RunSTA is {found}, and no status has this number", "V-STA-N", "V-PRE-0",
-             observed="CS_RunSTA={found}"),
-        rule("status.two-tables", "CS_RunSTA is {found}: the tables of the text give the statuses of user actions two numbers each, "
-             "and the profile does not say which hold (sub_action_status)", "V-STA-11", "V-PRE-13", severity="note"),
+        rule(
+            "mode.unknown",
+            "C_RunMD is {found}, and no mode has this number",
+            "V-SM-0",
+            "V-CTL02-N",
+            expects=("C_RunMD=0..16",),
+            observed="C_RunMD={found}",
+        ),
+        rule(
+            "status.unknown",
+            "CS_RunSTA is {found}, and no status has this number",
+            "V-STA-N",
+            "V-PRE-0",
+            observed="CS_RunSTA={found}",
+        ),
+        rule(
+            "status.two-tables",
+            "CS_RunSTA is {found}: the text's tables give the statuses of user actions two numbers each, "
+            "and the profile does not say which hold (sub_action_status)",
+            "V-STA-11",
+            "V-PRE-13",
+            severity="note",
+        ),
     )
-}  # fmt: skip
+}
