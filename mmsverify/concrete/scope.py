@@ -96,7 +96,9 @@ class Scope:
                 yield frozenset(i for i in range(size) if bits >> i & 1)
 
     def __str__(self) -> str:
-        return ", ".join(f"{sort}={len(names)}" for sort, names in self.elements.items())
+        """The sizes; of a model that has no elements there is nothing to count but the one machine."""
+        sizes = ", ".join(f"{sort}={len(names)}" for sort, names in self.elements.items())
+        return sizes or "one machine"
 
 
 def known_facts(model: ModelData, scope: Scope) -> dict[CellKey, Value]:

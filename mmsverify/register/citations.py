@@ -47,7 +47,9 @@ KINDS: Mapping[str, str] = {
 
 
 def of_model(source: type[Model]) -> Iterator[Cited]:
-    """What the declarations of a model cite."""
+    """What the declarations of a model cite, and the tables that it has as an option: by what their entries are."""
+    for kind, table in source.options.get("tables", {}).items():
+        yield from ((kind, own, clause) for own, clause in citations(table, kind))
     for name, declared in source.declared.items():
         if isinstance(declared, Removed):
             continue

@@ -9,6 +9,8 @@ from mmsverify.audit.conformance import BASE_CLASS
 from mmsverify.audit.objects import OBJECTS
 from mmsverify.audit.rules import RULES
 from mmsverify.audit.variables import TYPES, VARIABLES
+from mmsverify.audit.vr import VR_RULES
+from mmsverify.formats.vr import CELLS
 from mmsverify.profiles import CHECKS, KEYS, ROBOT_TABLE
 from mmsverify.register.citations import Cited, citations
 from mmsverify.register.grammar import of_modules
@@ -24,6 +26,7 @@ TABLES: Mapping[str, tuple[tuple[str, Any], ...]] = {
         ("profile key", KEYS[ROBOT_TABLE]),
         ("profile check", CHECKS),
     ),
+    "vr-template": (("rule", VR_RULES), ("cell", CELLS)),
 }
 """By model: what kind of thing each entry of a table is, and the table."""
 

@@ -6,7 +6,7 @@ the next mode. Here each of their functions is one step; how their steps interle
 
 from .commands import Commands, CommandsRepaired
 from .control import Control, ControlRepaired
-from .numbers import COMMANDS, MODES, statuses
+from .numbers import COMMANDS, MODES, TABLES, statuses
 from .properties import Properties, PropertiesRepaired
 from .scenario import scenario, worlds
 
@@ -16,10 +16,10 @@ NUMBERS = {"mode": MODES, "status": statuses, "command": COMMANDS}
 
 
 class AsWritten(Control, Commands, Properties, name="vr-template", variant="as-written", standard=STANDARD, views=VIEWS,
-                numbers=NUMBERS, scenario=scenario, worlds=worlds):  # fmt: skip
+                numbers=NUMBERS, tables=TABLES, scenario=scenario, worlds=worlds):  # fmt: skip
     """The text as it stands."""
 
 
 class Repaired(ControlRepaired, CommandsRepaired, PropertiesRepaired, name="vr-template", variant="repaired", standard=STANDARD,
-               views=VIEWS, numbers=NUMBERS, scenario=scenario, worlds=worlds):  # fmt: skip
+               views=VIEWS, numbers=NUMBERS, tables=TABLES, scenario=scenario, worlds=worlds):  # fmt: skip
     """The reading that keeps its own rules."""

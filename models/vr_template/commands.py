@@ -52,10 +52,10 @@ class Commands(Vocabulary):
     on_general_error = Procedure("V-DO-09", on=response("onErrS", cuts_in), steps=[
         do("V-DO-09", mode().becomes(if_(cuts_in, Mode.ERR_S_INSERT, Mode.ERR_S)), paused().becomes(False), *left), accept("V-DO-09", "V-CMD-09", "V-SM-ErrS"),
     ])  # fmt: skip
+    cleared = [mode().becomes(if_((mode() == Mode.ERR_S) & homed(), Mode.HOME_RDY, Mode.DBG_RDY))]
     reset_error = Procedure("V-DO-10a", on=response("resetErr"), steps=[
         refuse("V-CHK-2", unless=mode().isin([Mode.ERR_B, Mode.ERR_S]), rule="reset.no-error", says="ResetErr without an error"),
-        do("V-DO-10a", mode().becomes(if_((mode() == Mode.ERR_S) & homed(), Mode.HOME_RDY, Mode.DBG_RDY)),
-           cites=["V-DO-10b", "V-DO-10c", "V-SM-3", "V-SM-4"]),
+        do("V-DO-10a", *cleared, cites=["V-DO-10b", "V-DO-10c", "V-SM-3", "V-SM-4"]),
         accept("V-DO-10a", "V-CMD-10", "V-DEV-3", "V-DEV-4"),
     ])  # fmt: skip
     debug_action = Procedure("V-DO-101", on=response("dbgSub"), steps=[
@@ -77,6 +77,7 @@ class Commands(Vocabulary):
         refuse("V-CMD-401", "V-CHK-2", unless=mode() == Mode.RUN, rule="run-action.not-running", says="an action 401-499 outside Run"),
         do("V-DO-401", mode().becomes(Mode.RUN_SUB)), accept("V-DO-401", "V-CMD-401"),
     ])  # fmt: skip
+    unknown = Procedure("V-DO-X", on=response("unknown"), steps=[refuse("V-DO-X", when=True)])
 
 
 class CommandsRepaired(Commands):
@@ -106,9 +107,17 @@ class CommandsRepaired(Commands):
         do("V-DO-06", paused().becomes(True)), accept("V-DO-06", "V-CMD-06", "V-RUN-2"),
     ], repairs=repaired("VR-05", "V-CHK-2", because="only the automatic flow goes step by step"))  # fmt: skip
     resume = Procedure("V-DO-07", on=response("resume"), steps=[
-        refuse("V-CHK-2", "VR-06", unless=(mode() == Mode.RUN) & paused(), rule="resume.not-paused", level="warning", says="Resume of a flow that is not paused"),
+        refuse("V-CHK-2", "VR-05", unless=(mode() == Mode.RUN) & paused(), rule="resume.not-paused", level="warning", says="Resume of a flow that is not paused"),
         do("V-DO-07", paused().becomes(False)), accept("V-DO-07", "V-CMD-07"),
-    ], repairs=repaired("VR-06", "V-CHK-2", because="only a paused flow can be resumed"))  # fmt: skip
+    ], repairs=repaired("VR-05", "V-CHK-2", because="only a paused flow can be resumed"))  # fmt: skip
     on_serious_error = Procedure("V-DO-08", on=response("onErrB", cuts_in), steps=[
         do("V-DO-08", *serious, homed().becomes(False), cites=["V-SM-5"]), accept("V-DO-08", "V-CMD-08", "V-SM-ErrB"),
     ], repairs=repaired("VR-08", "V-DO-08", "V-SM-5", because="otherwise a Stop leads to HomeRdy, and on to Org, without a new Home"))  # fmt: skip
+    reset_error = Procedure("V-DO-10a", on=response("resetErr"), steps=[
+        refuse("V-CHK-2", "VR-06", unless=mode().isin([Mode.ERR_B, Mode.ERR_S]), rule="reset.no-error", level="warning", says="ResetErr without an error"),
+        do("V-DO-10a", *cleared, cites=["V-DO-10b", "V-DO-10c", "V-SM-3", "V-SM-4"]), accept("V-DO-10a", "V-CMD-10", "V-DEV-3", "V-DEV-4"),
+    ], repairs=repaired("VR-06", "V-CHK-2", because="where there is no error there is nothing to clear"))  # fmt: skip
+    run_action = Procedure("V-DO-401", on=response("runSub"), steps=[
+        refuse("V-CHK-2", "VR-04", unless=mode() == Mode.RUN, rule="run-action.not-running", level="warning", says="an action 401-499 outside Run"),
+        do("V-DO-401", mode().becomes(Mode.RUN_SUB)), accept("V-DO-401", "V-CMD-401"),
+    ], repairs=repaired("VR-04", "V-CHK-2", because="the actions 401 to 499 are kept free, and where they are allowed is not said"))  # fmt: skip

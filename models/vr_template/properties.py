@@ -67,14 +67,20 @@ class Properties(Vocabulary):
                                    says="a command that is not allowed changes nothing")  # fmt: skip
     waits_for_commands = Step("V-SM-1", (waits() & changes) >> (~service_is("set_next_mode") | arrived()), "V-NEXT-03b",
                               says="in a waiting state nothing moves without a command, but on to the origin after homing")  # fmt: skip
-    modes_change_as_commanded = Step("V-CTL02-N", changes >> (answered(PLUS) | service_is("set_next_mode")), "V-CMD02-2c",
+    modes_change_as_commanded = Step("V-CTL02-N", changes >> (answered(PLUS) | service_is("set_next_mode")), "V-CMD02-2a", "V-CMD02-2c", "V-DO-00",
                                      says="the mode changes by commands and by SetNextMode only")  # fmt: skip
+    next_is_nothing_in_debugging = Step("V-NEXT-01", (service_is("set_next_mode") & (mode() == Mode.DBG_RDY)) >> ~changes,
+                                        says="SetNextMode leaves DbgRdy alone")  # fmt: skip
+    next_is_nothing_at_origin = Step("V-NEXT-05", (service_is("set_next_mode") & (mode() == Mode.ORG_RDY)) >> ~changes,
+                                     says="SetNextMode leaves OrgRdy alone")  # fmt: skip
     status_waits_for_mode = Step(
         "V-STA-N",
         ~service_is("set_pre_mode") >> unchanged(status),
         says="the status follows the mode by SetPreMode only",
     )
 
+    reaches_home = Sometimes("V-SM-Home", mode() == Mode.HOME)
+    reaches_org = Sometimes("V-SM-Org", mode() == Mode.ORG)
     reaches_run = Sometimes("V-SM-Run", mode() == Mode.RUN)
     reaches_stop = Sometimes("V-SM-Stop", mode() == Mode.STOP)
     reaches_org_ready = Sometimes("V-SM-OrgRdy", mode() == Mode.ORG_RDY)

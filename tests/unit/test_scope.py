@@ -31,6 +31,10 @@ def test_elements_are_named_after_their_sort() -> None:
     assert str(scope) == "L=2"
 
 
+def test_the_scope_of_a_model_without_elements_is_one_machine() -> None:
+    assert str(Scope({})) == "one machine"
+
+
 def test_the_scenario_of_a_model_gives_names_and_facts() -> None:
     def scenario(sizes: Any, profile: Any) -> Any:
         return {"T": tuple(profile["names"][: sizes["T"]])}, {("known", ("x",)): True}

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from mmsverify.audit.vr.rules import VR_RULES
 from mmsverify.audit.vr.scans import NEXT, PRE, RESET, Scans
 from mmsverify.concrete.automaton import States
 from mmsverify.model import Row
@@ -46,9 +47,9 @@ class Blaming:
     def of_status(self, agreeing: States, mode: str) -> Blame:
         """The mode can be as shown, the status cannot: ``agreeing`` are the states with that mode."""
         (row,) = (row for row in self._rows if row.on.service == PRE)
-        clause = Clause.of("V-PRE-0", "V-STA-N", "V-CTL02-1") + row.clause
-        says = f"the status cannot be so in mode {mode}"
-        return Blame("status.mode", "error", clause, says, "status", self.words(agreeing, "status"))
+        rule = VR_RULES["status.mode"]
+        says = rule.says.format(mode=mode)
+        return Blame(rule.id, rule.severity, rule.clause + row.clause, says, "status", self.words(agreeing, "status"))
 
     def of_mode(self, states: States, shown: str, seen: Seen) -> Blame:
         """The mode cannot follow."""
@@ -67,10 +68,12 @@ class Blaming:
             clause = conjunct.clause + row.clause + MACHINE
             says = f"{conjunct.says}: {held} is followed by {shown}"
             return Blame(conjunct.rule, severity, clause, says, "mode", nexts)
-        clause = Clause.of("V-NEXT-N", "V-CTL02-3") + MACHINE
+        rule = VR_RULES["mode.next"]
+        clause = rule.clause
         for row in self._leading_on(ready):
             clause = row.clause + clause
-        return Blame("mode.next", "error", clause, f"{held} is followed by {shown}", "mode", nexts)
+        says = rule.says.format(held=held, shown=shown)
+        return Blame(rule.id, rule.severity, clause, says, "mode", nexts)
 
     def _leading_on(self, ready: States) -> list[Row]:
         """The rows of SetNextMode that apply: what would have been right."""

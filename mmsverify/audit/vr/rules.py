@@ -1,4 +1,4 @@
-"""Rules of VR samples that no state of the model expresses: what a cell can hold."""
+"""Rules of VR samples beside the rows of the model: what a cell can hold, and that nothing but those rows may happen."""
 
 from __future__ import annotations
 
@@ -32,7 +32,10 @@ VR_RULES: Mapping[str, Rule] = {
             "and the profile does not say which hold (sub_action_status)",
             "V-STA-11",
             "V-PRE-13",
+            "VR-12",
             severity="note",
         ),
+        rule("status.mode", "the status cannot be so in mode {mode}", "V-PRE-0", "V-STA-N", "V-CTL02-1"),
+        rule("mode.next", "{held} is followed by {shown}", "V-NEXT-N", "V-CTL02-3", "V-CTL02-N"),
     )
 }
