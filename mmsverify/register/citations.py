@@ -47,7 +47,10 @@ KINDS: Mapping[str, str] = {
 
 
 def of_model(source: type[Model]) -> Iterator[Cited]:
-    """What the declarations of a model cite, and the tables that it has as an option: by what their entries are."""
+    """What the declarations of a model cite, and the tables that it has as an option.
+
+    ``tables`` says of each table what kind of thing its entries are.
+    """
     for kind, table in source.options.get("tables", {}).items():
         yield from ((kind, own, clause) for own, clause in citations(table, kind))
     for name, declared in source.declared.items():

@@ -77,7 +77,6 @@ class Commands(Vocabulary):
         refuse("V-CMD-401", "V-CHK-2", unless=mode() == Mode.RUN, rule="run-action.not-running", says="an action 401-499 outside Run"),
         do("V-DO-401", mode().becomes(Mode.RUN_SUB)), accept("V-DO-401", "V-CMD-401"),
     ])  # fmt: skip
-    unknown = Procedure("V-DO-X", on=response("unknown"), steps=[refuse("V-DO-X", when=True)])
 
 
 class CommandsRepaired(Commands):

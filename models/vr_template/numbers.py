@@ -30,9 +30,7 @@ STATUSES = tuple(
     _status(number, status, f"V-STA-{number:02}") for number, status in enumerate(Status) if number <= 10
 )
 SUB_ACTIONS = (Status.DBG_SUB, Status.HOME_SUB, Status.ORG_SUB, Status.RUN_SUB)
-AS_LISTED = tuple(
-    _status(number, status, f"V-STA-{number}") for number, status in enumerate(SUB_ACTIONS, 11)
-)
+AS_LISTED = tuple(_status(number, status, f"V-STA-{number}") for number, status in enumerate(SUB_ACTIONS, 11))
 """The sub-actions in the table of VR(CS_RunSTA)."""
 AS_SET = tuple(_status(number, status, f"V-PRE-{number}") for number, status in enumerate(SUB_ACTIONS, 13))
 """The sub-actions in the table of SetPreMode, which contradicts the other one (VR-12)."""

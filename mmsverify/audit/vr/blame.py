@@ -49,7 +49,8 @@ class Blaming:
         (row,) = (row for row in self._rows if row.on.service == PRE)
         rule = VR_RULES["status.mode"]
         says = rule.says.format(mode=mode)
-        return Blame(rule.id, rule.severity, rule.clause + row.clause, says, "status", self.words(agreeing, "status"))
+        statuses = self.words(agreeing, "status")
+        return Blame(rule.id, rule.severity, rule.clause + row.clause, says, "status", statuses)
 
     def of_mode(self, states: States, shown: str, seen: Seen) -> Blame:
         """The mode cannot follow."""

@@ -1,4 +1,4 @@
-"""Rules of VR samples beside the rows of the model: what a cell can hold, and that nothing but those rows may happen."""
+"""Rules of VR samples beside the rows of the model: what a cell can hold, and that nothing else happens."""
 
 from __future__ import annotations
 
