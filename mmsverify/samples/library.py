@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mmsverify.samples import annex_a, faults, shift
+from mmsverify.samples import annex_a, faults, press, shift
 from mmsverify.samples.recording import Recording
 
 
@@ -26,12 +26,16 @@ def example_of_the_standard() -> Recording:
     return recording
 
 
+PRESS = {"model": "vr-template", "sub_action_status": "11-14"}
+
 SAMPLES: Mapping[str, Sample] = {
     "annex-a.mcap": Sample(example_of_the_standard),
     "production-run.mcap": Sample(shift.production_run),
     "faulty-select.mcap": Sample(faults.faulty_select),
     "faulty-vmd-stop.mcap": Sample(faults.faulty_vmd_stop),
     "two-clients.mcap": Sample(faults.two_clients, {"model": "mms-robot", "associations": "multiple"}),
+    "press-day.mcap": Sample(press.day, PRESS),
+    "faulty-press.mcap": Sample(press.faulty_press, PRESS),
 }
 
 

@@ -8,8 +8,9 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping
-from typing import Any, BinaryIO
+from typing import Any, BinaryIO, Literal
 
+from mmsverify.formats import vr
 from mmsverify.formats.mcap_write import TraceWriter
 from mmsverify.formats.mms import Pdu, encode
 from mmsverify.formats.trace import Channel, LinkEvent, Sender
@@ -18,10 +19,11 @@ from mmsverify.samples import pdus
 BEGIN = 1_767_592_800_000_000_000
 """2026-01-05T06:00:00Z, the early shift, in ns."""
 MILLISECOND = 1_000_000
+Sampling = Literal["scan", "polled"]
 
 
 class Recording:
-    """The messages of one robot, in the order of their times."""
+    """The messages of one robot or controller, in the order of their times."""
 
     def __init__(self, vmd: str) -> None:
         self.vmd = vmd
@@ -42,6 +44,10 @@ class Recording:
         count = len(self._messages)
         self._time += (90 + 37 * count % 160 if sender == "client" else 4 + 7 * count % 19) * MILLISECOND
         self._add(Channel.mms(self.vmd, association, sender), encode(pdu))
+
+    def show(self, sampling: Sampling, cells: Mapping[str, float]) -> None:
+        """One sample of the VR cells of a controller."""
+        self._add(Channel.vr(self.vmd, sampling), vr.encode(cells))
 
     def _add(self, channel: Channel, data: bytes) -> None:
         self._messages.append((self._time, channel, data))

@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 
 from mmsverify.auditing import audit_traces
+from mmsverify.formats import vr
+from mmsverify.formats.mcap import read_trace
 from mmsverify.resources import traces_dir
 from mmsverify.results import Audit
 from mmsverify.samples.__main__ import main
@@ -45,6 +47,11 @@ FINDINGS: dict[str, list[Told]] = {
         (42, "error", "attributes.state", ("R-7.3.3.9-1", "R-7.4.2.2-4")),
         (44, "error", "vmd-reset.intervention", ("R-5.3.1.3.3.13-2",)),
     ],
+    "faulty-press.mcap": [
+        (117, "error", "home.while-running", ("V-CHK-3", "V-CHK-2", "V-DO-01", "V-CMD-01", "V-CTL02-N")),
+        (311, "error", "org.unhomed", ("V-SM-5", "V-FUN-2", "V-CHK-2", "V-DO-02", "V-CMD-02", "V-CTL02-N")),
+    ],
+    "press-day.mcap": [],
     "two-clients.mcap": [(29, "error", "stop.without-control", ("R-7.3.3.4.1-b",))],
 }
 
@@ -105,3 +112,10 @@ def test_every_finding_points_to_earlier_messages(name: str) -> None:
 def test_a_whole_shift_without_a_fault_has_no_finding() -> None:
     assert told("production-run.mcap") == []
     assert audited("production-run.mcap").inputs[0].messages == 349
+
+
+def test_the_day_of_a_press_shows_every_mode_that_the_text_sets_and_every_status() -> None:
+    samples = [vr.decode(message.data).cells for message in read_trace(traces_dir() / "press-day.mcap")]
+    assert {cells["C_RunMD"] for cells in samples} == {*range(10), *range(13, 17)}
+    assert {cells["CS_RunSTA"] for cells in samples} == set(range(15))
+    assert {cells["C_Cmd"] for cells in samples} == {*range(11), 101, 203, 305, 402}
