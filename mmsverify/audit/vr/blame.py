@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any
 
 from mmsverify.audit.vr.rules import VR_RULES
@@ -16,6 +17,9 @@ from mmsverify.results import Severity
 
 MACHINE = Clause.of("V-CTL02-N")
 """The machine runs by the built-in state machine: whatever else is broken, that is."""
+STAYS = {"DbgRdy": Clause.of("V-NEXT-01", "V-SM-1"), "HomeRdy": Clause.of("V-NEXT-03b", "V-SM-1"),
+         "OrgRdy": Clause.of("V-NEXT-05", "V-SM-1")}  # fmt: skip
+"""The waiting modes, which SetNextMode leaves as they are."""
 Seen = frozenset[str] | None
 """The commands that the samples show; ``None`` where they show no commands at all."""
 
@@ -46,11 +50,33 @@ class Blaming:
 
     def of_status(self, agreeing: States, mode: str) -> Blame:
         """The mode can be as shown, the status cannot: ``agreeing`` are the states with that mode."""
-        (row,) = (row for row in self._rows if row.on.service == PRE)
         rule = VR_RULES["status.mode"]
-        says = rule.says.format(mode=mode)
-        statuses = self.words(agreeing, "status")
-        return Blame(rule.id, rule.severity, rule.clause + row.clause, says, "status", statuses)
+        statuses, clause = self.words(agreeing, "status"), rule.clause + self._set_pre_mode(mode)
+        return Blame(rule.id, rule.severity, clause, rule.says.format(mode=mode), "status", statuses)
+
+    def of_late_status(self, statuses: frozenset[str], mode: str) -> Blame | None:
+        """Mode and status can be as shown, but not at a time: the command that leads to the mode.
+
+        The status is that of the mode before, where the text, or a reading of it, does not allow it.
+        """
+        before = self._scans.settled(statuses)
+        refused = min(self._refusals(before, mode, None), key=lambda found: found[0], default=None)
+        if refused is None:
+            return None
+        blame = self._of_refusal(refused, " or ".join(self.words(before, "mode")), mode, ())
+        return replace(blame, clause=blame.clause + self._set_pre_mode(mode))
+
+    def _set_pre_mode(self, mode: str) -> Clause:
+        """What SetPreMode does in a mode."""
+        (row,) = (row for row in self._rows if row.on.service == PRE)
+        its_own = f"V-PRE-{self._mode_numbers.get(mode, 0):02}"
+        kept = (c for c in row.clause.ids if c == its_own or not c.startswith("V-PRE-"))
+        return Clause.of("V-PRE-0", *kept)
+
+    @cached_property
+    def _mode_numbers(self) -> Mapping[str, int]:
+        numbers = self._automaton.machine.model.options["numbers"]["mode"]
+        return {str(mode): number for number, mode in numbers.items()}
 
     def of_mode(self, states: States, shown: str, seen: Seen) -> Blame:
         """The mode cannot follow."""
@@ -64,22 +90,32 @@ class Blaming:
             return Blame("error.left", "error", reset.clause + MACHINE, says, "mode", nexts)
         refused = min(self._refusals(ready, shown, seen), key=lambda found: found[0], default=None)
         if refused is not None:
-            _, row, conjunct = refused
-            severity: Severity = "error" if conjunct.level == "error" else "warning"
-            clause = conjunct.clause + row.clause + MACHINE
-            says = f"{conjunct.says}: {held} is followed by {shown}"
-            return Blame(conjunct.rule, severity, clause, says, "mode", nexts)
+            return self._of_refusal(refused, held, shown, nexts)
         rule = VR_RULES["mode.next"]
         clause = rule.clause
-        for row in self._leading_on(ready):
+        for word in self.words(ready, "mode"):
+            clause = STAYS[word] + clause if word in STAYS else clause
+        for row in self._leading_on(ready, seen or frozenset()):
             clause = row.clause + clause
         says = rule.says.format(held=held, shown=shown)
         return Blame(rule.id, rule.severity, clause, says, "mode", nexts)
 
-    def _leading_on(self, ready: States) -> list[Row]:
-        """The rows of SetNextMode that apply: what would have been right."""
+    def _of_refusal(
+        self, refused: tuple[Any, Row, Conjunct], held: str, shown: str, nexts: tuple[str, ...]
+    ) -> Blame:
+        """A command was obeyed that is not allowed."""
+        _, row, conjunct = refused
+        severity: Severity = "error" if conjunct.level == "error" else "warning"
+        clause = conjunct.clause + row.clause + MACHINE
+        says = f"{conjunct.says}: {held} is followed by {shown}"
+        return Blame(conjunct.rule, severity, clause, says, "mode", nexts)
+
+    def _leading_on(self, ready: States, seen: frozenset[str]) -> list[Row]:
+        """The rows that apply, of SetNextMode and of the commands given: what would have been right."""
+        events = {NEXT, *seen}
         edges = (edge for s in ready for edge in self._automaton.edges[s])
-        return sorted({e.row for e in edges if e.row.on.service == NEXT}, key=lambda row: row.id)
+        led = {e.row for e in edges if e.row.on.service in events and "mode" in e.row.writes}
+        return sorted(led, key=lambda row: row.id)
 
     def _reset(self, ready: States, shown: str) -> Row | None:
         """The row of ResetErr, if it leads from here to what is shown."""
@@ -95,7 +131,8 @@ class Blaming:
             if row.on.phase != "response" or row.answer != PLUS or shown not in _targets(row):
                 continue
             command = row.on.service
-            if seen is not None and (command not in seen if seen else command == RESET):
+            # What is not seen is not ResetErr either: where there is no error, the text gives it no effect.
+            if command not in seen if seen else command == RESET:
                 continue
             for state in sorted(ready):
                 broken = self._automaton.broken(state, row)

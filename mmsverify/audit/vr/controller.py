@@ -11,7 +11,7 @@ from typing import Any
 
 from mmsverify.audit.vr.blame import Blaming
 from mmsverify.audit.vr.rules import VR_RULES
-from mmsverify.audit.vr.scans import RESET, Scans
+from mmsverify.audit.vr.scans import RESET, RUN_ACTION, Scans
 from mmsverify.concrete.automaton import States
 from mmsverify.errors import DecodeError
 from mmsverify.formats import vr
@@ -51,6 +51,9 @@ class Controller:
         self._told: dict[str, float] = {}
         self._commands: tuple[float | None, float | None] = (None, None)
         self._changed: int | None = None
+        self._mode: frozenset[str] = frozenset()
+        self._wrong_status: float | None = None
+        self._unhomed = False
         self._two_tables = False
         self._begun = False
 
@@ -67,7 +70,11 @@ class Controller:
         self._commands = self._commands[1], self._cells.get(COMMAND)
         shown: dict[str, frozenset[str]] = {}
         yield from self._numbers(message, shown)
-        yield from self._follow(message, shown, self._cells.get(HOMED) if HOMED in said.cells else None)
+        if self._wrong_status is not None and self._wrong_status == self._cells.get(STATUS):
+            shown.pop("status", None)  # told; it shows nothing until it changes
+        else:
+            self._wrong_status = None
+        yield from self._follow(message, shown, said.cells)
 
     def _numbers(self, message: TraceMessage, shown: dict[str, frozenset[str]]) -> Iterator[Finding]:
         """What mode and status mean; a number without a meaning is told once, and shows nothing."""
@@ -89,34 +96,50 @@ class Controller:
     # What may follow.
 
     def _follow(
-        self, message: TraceMessage, shown: Mapping[str, frozenset[str]], homed: float | None
+        self, message: TraceMessage, shown: Mapping[str, frozenset[str]], said: Mapping[str, float]
     ) -> Iterator[Finding]:
         scans, earlier = self._scans, self._states
-        scanned = message.metadata.get("sampling") == SCAN
-        if not self._begun:
-            reached = earlier
-        elif scanned:
-            seen = self._seen()
-            reached = scans.once(earlier, resets=seen is None or RESET in seen)
-        else:
-            reached = scans.often(earlier)
+        reached = self._reached(scanned := message.metadata.get("sampling") == SCAN)
         self._begun = True
         agreeing = scans.agreeing(reached, shown)
-        if not agreeing:
-            yield self._violation(message, reached, shown, scanned=scanned)
+        found = None if agreeing else self._violation(message, reached, shown, scanned=scanned)
+        if found is not None:
+            if found.observed.startswith(STATUS):
+                self._wrong_status = self._cells[STATUS]
             agreeing = scans.agreeing(scans.automaton.all, shown)
             if not agreeing:
-                agreeing = scans.agreeing(
-                    scans.automaton.all, {k: v for k, v in shown.items() if k == "mode"}
-                )
-        if homed is not None:
-            flagged = {"homed": frozenset({str(bool(homed))})}
-            agreeing = (
-                scans.agreeing(agreeing, flagged) or agreeing
-            )  # the flag may be set a little earlier, or later
+                agreeing = scans.agreeing(scans.automaton.all, _mode_of(shown))
         if scans.agreeing(earlier, shown) != earlier:
             self._changed = message.index
+        self._mode = shown.get("mode", self._mode)
+        denied = self._homing_is_denied()
+        certain = denied and self._mode != {RUN_ACTION}
+        if certain and not self._unhomed and (found is None or found.severity == "warning"):
+            found = self._breach(message, "mode.unhomed", mode=vr.plain(self._cells[MODE]))
+        if found is not None:
+            yield found
+        self._unhomed = denied and (self._unhomed or found is not None)
+        if HOMED in said:  # the flag may be set a little earlier, or later
+            flag = frozenset({str(bool(self._cells[HOMED]))})
+            agreeing = scans.agreeing(agreeing, {"homed": flag}) or agreeing
         self._states = agreeing
+
+    def _reached(self, scanned: bool) -> States:
+        """The states that may follow."""
+        scans, earlier = self._scans, self._states
+        if not self._begun:
+            return earlier
+        if self._unhomed:  # the machine is where its flag forbids it to be: on from there as any unhomed one
+            earlier |= scans.unhomed
+        if not scanned:
+            return scans.often(earlier)
+        seen = self._seen()
+        resets = seen is None or RESET in seen
+        return scans.once(earlier, resets=resets)
+
+    def _homing_is_denied(self) -> bool:
+        """Whether VR(CF_Home) is 0 in a mode that needs homing, even if the flag is a scan behind."""
+        return self._cells.get(HOMED) == 0 and bool(self._mode) and self._mode <= self._scans.homed_modes
 
     def _seen(self) -> frozenset[str] | None:
         """The commands in C_Cmd, now or a sample ago; ``None`` where it is not recorded."""
@@ -142,7 +165,10 @@ class Controller:
             found = self._blaming.of_mode(self._states if scanned else reached, word, seen)
         else:
             word = next(iter(shown.get("mode", ("unknown",))))
-            found = self._blaming.of_status(by_mode or reached, word)
+            late = None
+            if not scanned and self._mode and self._mode != shown.get("mode"):
+                late = self._blaming.of_late_status(shown["status"], word)
+            found = late or self._blaming.of_status(by_mode or reached, word)
         cell = CELL_OF[found.about]
         return Finding(
             path=self.path, vmd=self.name, index=message.index, time=message.time, topic=message.topic,

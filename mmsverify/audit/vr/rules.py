@@ -20,6 +20,15 @@ VR_RULES: Mapping[str, Rule] = {
             observed="C_RunMD={found}",
         ),
         rule(
+            "mode.unhomed",
+            "CF_Home is 0 in mode {mode}, which only a homed machine enters",
+            "V-FUN-2",
+            "V-SM-5",
+            "V-VR-10",
+            expects=("CF_Home=1",),
+            observed="CF_Home=0",
+        ),
+        rule(
             "status.unknown",
             "CS_RunSTA is {found}, and no status has this number",
             "V-STA-N",

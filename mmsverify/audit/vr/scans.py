@@ -7,36 +7,68 @@ SetNextMode, and the status may or may not have been set again: so it lags the m
 from __future__ import annotations
 
 from collections.abc import Mapping
+from collections.abc import Set as AbstractSet
+from functools import cached_property, lru_cache
 
 from mmsverify.concrete.automaton import Automaton, States
 from mmsverify.model import Row
 
 PRE, NEXT, RESET = "set_pre_mode", "set_next_mode", "resetErr"
+RUN_ACTION = "Run_SubActions"
+"""The mode of actions 401 to 499: where these are allowed, only a reading says."""
+REMEMBERED = 4096
+_NONE: States = frozenset()
 
 
 class Scans:
-    """The automaton of a controller, by scans; what has been worked out is remembered."""
+    """The automaton of a controller, by scans; what has been worked out is remembered.
+
+    A step leads from a set of states to all that it leads to from one of them. So what is remembered is by
+    state, however many sets of states a long recording meets; by set only what was asked last.
+    """
 
     def __init__(self, automaton: Automaton) -> None:
         self.automaton = automaton
-        self._memo: dict[tuple[str, States, bool], States] = {}
+        self._after_scan: dict[tuple[int, bool], States] = {}
+        self._reached: dict[int, States] = {}
+        self._holding: dict[tuple[str, frozenset[str]], States] = {}
+        self._remembered_once = lru_cache(maxsize=REMEMBERED)(self._once)
+        self._remembered_often = lru_cache(maxsize=REMEMBERED)(self._often)
 
     def once(self, states: States, *, resets: bool) -> States:
         """The states after one scan; ``resets``: an error may have been reset in it."""
-        return self._remembered("once", states, resets)
+        return self._remembered_once(states, resets)
 
     def often(self, states: States) -> States:
         """The states after any number of scans, none included."""
-        return self._remembered("often", states, True)
+        return self._remembered_often(states)
 
-    def _remembered(self, how: str, states: States, resets: bool) -> States:
-        key = how, states, resets
-        if key not in self._memo:
-            if how == "once":
-                self._memo[key] = self._scan(states, resets)
-            else:
-                self._memo[key] = self.automaton.closed(states, lambda each: self._scan(each, resets))
-        return self._memo[key]
+    def _once(self, states: States, resets: bool) -> States:
+        return _NONE.union(*{self._from(state, resets) for state in states})
+
+    def _often(self, states: States) -> States:
+        return _NONE.union(*{self._reach(state) for state in states})
+
+    def _reach(self, state: int) -> States:
+        """What any number of scans leads to; from a state that is known it is not looked for again."""
+        if state not in self._reached:
+            met, ahead = {state}, [state]
+            while ahead:
+                new = self._from(ahead.pop(), True) - met
+                met |= new
+                for each in new:
+                    if each in self._reached:
+                        met |= self._reached[each]
+                    else:
+                        ahead.append(each)
+            self._reached[state] = frozenset(met)
+        return self._reached[state]
+
+    def _from(self, state: int, resets: bool) -> States:
+        key = state, resets
+        if key not in self._after_scan:
+            self._after_scan[key] = self._scan(frozenset({state}), resets)
+        return self._after_scan[key]
 
     def _scan(self, states: States, resets: bool) -> States:
         ready = self.ready(states)
@@ -51,7 +83,7 @@ class Scans:
         """The states in which the mode may change: the status has been set."""
         return self._quiet(self._set(self._quiet(states)))
 
-    def _set(self, states: States) -> States:
+    def _set(self, states: AbstractSet[int]) -> States:
         return self.automaton.after(states, lambda row: row.on.service == PRE)
 
     def _quiet(self, states: States) -> States:
@@ -62,9 +94,31 @@ class Scans:
 
         return self.automaton.closed(states, lambda each: self.automaton.after(each, flags))
 
+    @cached_property
+    def unhomed(self) -> States:
+        """The states of a machine that is not homed."""
+        return self._that_hold("homed", frozenset({"False"}))
+
+    @cached_property
+    def homed_modes(self) -> frozenset[str]:
+        """The modes of homed machines only, even of such as were homed a scan ago."""
+        value, lately = self.automaton.value, self.unhomed | self.once(self.unhomed, resets=True)
+        every = {str(value(s, "mode")) for s in self.automaton.all}
+        return frozenset(every - {str(value(s, "mode")) for s in lately})
+
+    def settled(self, statuses: frozenset[str]) -> States:
+        """The states with one of these statuses in which SetPreMode has nothing left to do."""
+        return frozenset(s for s in self._that_hold("status", statuses) if self._set({s}) == {s})
+
     def agreeing(self, states: States, shown: Mapping[str, frozenset[str]]) -> States:
         """The states that hold what is shown: for each variable, one of these words."""
-        value = self.automaton.value
-        return frozenset(
-            s for s in states if all(str(value(s, name)) in words for name, words in shown.items())
-        )
+        for name, words in shown.items():
+            states &= self._that_hold(name, words)
+        return states
+
+    def _that_hold(self, name: str, words: frozenset[str]) -> States:
+        key = name, words
+        if key not in self._holding:
+            value, every = self.automaton.value, self.automaton.all
+            self._holding[key] = frozenset(s for s in every if str(value(s, name)) in words)
+        return self._holding[key]
