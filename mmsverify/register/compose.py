@@ -9,7 +9,7 @@ from mmsverify.model import Clause, Model, assemble, load_variants
 from mmsverify.model.load import find, names
 from mmsverify.register.citations import of_model
 from mmsverify.register.exercised import read_exercised
-from mmsverify.register.sources import of_tables
+from mmsverify.register.sources import COMPANIONS, of_tables
 from mmsverify.register.statements import read_statements
 from mmsverify.resources import models_dir
 from mmsverify.results import Encoding, Entry, Mended, Register, Statement
@@ -21,7 +21,9 @@ Found = dict[str, dict[tuple[str, str], list[str]]]
 def clause_registers(models: Sequence[str] = ()) -> list[Register]:
     """The registers of models by name or path; of all that are shipped where none is named."""
     folder = models_dir()
-    return [register(model, folder) for model in models or names(folder)]
+    beside = {other for others in COMPANIONS.values() for other in others}
+    wanted = models or [name for name in names(folder) if name not in beside]
+    return [register(model, folder) for model in wanted]
 
 
 def register(name_or_path: str, folder: Path) -> Register:
@@ -32,6 +34,10 @@ def register(name_or_path: str, folder: Path) -> Register:
     name = str(any_variant.options.get("name", any_variant.__name__))
     statements = read_statements(path)
     found = _encodings(name, variants, known=bool(statements))
+    for other in COMPANIONS.get(name, ()) if statements else ():
+        for variant, source in load_variants(other, folder).items():
+            for kind, own, clause in of_model(source):
+                _note(found, clause, kind, f"{other} {own}", variant)
     exercised = read_exercised(path)
     every = {**statements, **{i: _unwritten(i) for i in sorted(found.keys() - statements.keys())}}
     entries = tuple(Entry(s, _listed(found.get(i, {})), exercised.get(i, ())) for i, s in every.items())

@@ -30,6 +30,9 @@ TABLES: Mapping[str, tuple[tuple[str, Any], ...]] = {
 }
 """By model: what kind of thing each entry of a table is, and the table."""
 
+COMPANIONS: Mapping[str, tuple[str, ...]] = {"vr-template": ("vr-tasks",)}
+"""Models that encode statements of another one's register, more closely."""
+
 ASN1 = frozenset({"mms-robot"})
 """Models of which the messages have ASN.1 modules."""
 
