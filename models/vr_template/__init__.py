@@ -1,7 +1,7 @@
 """The VR template framework of a motion controller, as an executable model: modes, commands, errors.
 
 Two tasks share VR(0) to VR(15): Cmd02 checks commands and sets the mode, Control02 reports the status, acts, and sets
-the next mode. Here each of their functions is one step; how their steps interleave within a scan is not modelled.
+the next mode. Here each of their functions is one step; how their steps interleave is the model vr-tasks.
 """
 
 from .commands import Commands, CommandsRepaired
