@@ -1,4 +1,4 @@
-"""The two tasks of the template framework: the interleavings that break it as written; that the repairs hold."""
+"""The two tasks of the template framework: the interleavings that break it as written, and the repairs."""
 
 from __future__ import annotations
 

@@ -268,3 +268,45 @@ def test_the_text_as_it_stands_lets_an_error_be_left_by_itself(variant: str, tmp
     path = write(tmp_path / "made.mcap", said)
     found = audit_traces([path], profile=None, model=None, variant=variant).findings
     assert [each.rule for each in found] == (["error.left"] if variant == "repaired" else [])
+
+
+def commanded(command: int, mode: int, *more: dict[str, int]) -> list[dict[str, int]]:
+    """A command stands in C_Cmd, then the mode follows and the cell is clear; then more samples."""
+    return [{"C_Cmd": command}, {"C_Cmd": 0, "C_RunMD": mode, "CS_RunSTA": mode}, *more]
+
+
+HOMED_BY_COMMAND = [{"C_Cmd": 0, **modes([0])[0]}, *modes([1]), *commanded(1, 2), *modes([3])]
+
+
+@pytest.mark.exercises("V-CMD02-2a", "V-CHK-4", "V-DO-X", "V-CMD02-2c", "V-NEXT-03b")
+@pytest.mark.parametrize(
+    ("then", "rule"),
+    [
+        (modes([6]), "command.none"),
+        (commanded(600, 6), "command.unknown"),
+        (commanded(2, 6), "command.other"),
+        (commanded(3, 6), ""),
+        (modes([5, 5, 8]), ""),
+    ],
+)
+def test_a_mode_that_is_commanded_needs_its_command(then: list[dict[str, int]], rule: str) -> None:
+    ready = [*HOMED_BY_COMMAND, *commanded(2, 4), *modes([5])]
+    found = [each for each in audited([*ready, *then]) if each.severity != "note"]
+    assert [each.rule for each in found] == ([rule] if rule else [])
+
+
+def test_after_homing_the_origin_is_gone_to_by_itself_only_where_the_flag_says_so() -> None:
+    flagged = [{**HOMED_BY_COMMAND[0], "CF_AutoOrg": 1}, *HOMED_BY_COMMAND[1:]]
+    assert told(audited([*flagged, *modes([4, 5])])) == []
+    cleared = [{**HOMED_BY_COMMAND[0], "CF_AutoOrg": 0}, *HOMED_BY_COMMAND[1:]]
+    assert [rule for _, rule in told(audited([*cleared, *modes([4, 5])]))] == ["origin.unasked"]
+
+
+def test_where_no_command_is_ever_seen_none_is_needed() -> None:
+    silent = [{"C_Cmd": 0, **modes([0])[0]}, *modes([1, 2, 3, 4, 5, 6])]
+    assert told(audited(silent)) == []
+
+
+def test_a_stop_may_be_told_by_its_flag() -> None:
+    running = [*HOMED_BY_COMMAND, *commanded(2, 4), *modes([5]), *commanded(3, 6)]
+    assert told(audited([*running, {"CF_Stop": 1, **modes([7])[0]}, *modes([3])])) == []

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from mmsverify.audit.vr.rules import VR_RULES
-from mmsverify.audit.vr.scans import NEXT, PRE, RESET, Scans
+from mmsverify.audit.vr.scans import NEXT, PRE, RESET, TO_ORIGIN, Scans
 from mmsverify.concrete.automaton import States
 from mmsverify.model import Row
 from mmsverify.model import expr as ex
@@ -22,6 +22,15 @@ STAYS = {"DbgRdy": Clause.of("V-NEXT-01", "V-SM-1"), "HomeRdy": Clause.of("V-NEX
 """The waiting modes, which SetNextMode leaves as they are."""
 Seen = frozenset[str] | None
 """The commands that the samples show; ``None`` where they show no commands at all."""
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """What was commanded in a scan: the commands seen, what is barred, and the number in C_Cmd if not 0."""
+
+    seen: Seen = None
+    barred: frozenset[str] = frozenset()
+    number: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,24 +87,22 @@ class Blaming:
         numbers = self._automaton.machine.model.options["numbers"]["mode"]
         return {str(mode): number for number, mode in numbers.items()}
 
-    def of_mode(self, states: States, shown: str, seen: Seen) -> Blame:
+    def of_mode(self, states: States, shown: str, given: Given) -> Blame:
         """The mode cannot follow."""
         ready = self._scans.ready(states)
         held = " or ".join(self.words(ready, "mode"))
-        resets = seen is None or RESET in seen
-        nexts = self.words(self._scans.once(states, resets=resets), "mode")
-        reset = None if resets else self._reset(ready, shown)
-        if reset is not None:
-            says = f"{held} is left for {shown} without ResetErr"
-            return Blame("error.left", "error", reset.clause + MACHINE, says, "mode", nexts)
-        refused = min(self._refusals(ready, shown, seen), key=lambda found: found[0], default=None)
-        if refused is not None:
+        nexts = self.words(self._scans.once(states, given.barred), "mode")
+        refused = min(self._refusals(ready, shown, given.seen), key=lambda found: found[0], default=None)
+        unasked = self._barred(ready, shown, given.barred)
+        if refused is not None and (given.seen or unasked is None):
             return self._of_refusal(refused, held, shown, nexts)
+        if unasked is not None:
+            return self._of_unasked(unasked, held, shown, given, nexts)
         rule = VR_RULES["mode.next"]
         clause = rule.clause
         for word in self.words(ready, "mode"):
             clause = STAYS[word] + clause if word in STAYS else clause
-        for row in self._leading_on(ready, seen or frozenset()):
+        for row in self._leading_on(ready, given.seen or frozenset()):
             clause = row.clause + clause
         says = rule.says.format(held=held, shown=shown)
         return Blame(rule.id, rule.severity, clause, says, "mode", nexts)
@@ -117,11 +124,23 @@ class Blaming:
         led = {e.row for e in edges if e.row.on.service in events and "mode" in e.row.writes}
         return sorted(led, key=lambda row: row.id)
 
-    def _reset(self, ready: States, shown: str) -> Row | None:
-        """The row of ResetErr, if it leads from here to what is shown."""
+    def _barred(self, ready: States, shown: str, barred: frozenset[str]) -> Row | None:
+        """The row that leads from here to what is shown, and was not asked for."""
         edges = (edge for s in sorted(ready) for edge in self._automaton.edges[s])
-        resets = (edge for edge in edges if edge.row.on.service == RESET)
-        return next((e.row for e in resets if str(self._automaton.value(e.target, "mode")) == shown), None)
+        found = (e for e in edges if barred & {e.row.on.service, e.row.name} and "mode" in e.row.writes)
+        return next((e.row for e in found if str(self._automaton.value(e.target, "mode")) == shown), None)
+
+    def _of_unasked(self, row: Row, held: str, shown: str, given: Given, nexts: tuple[str, ...]) -> Blame:
+        """What is shown may follow, if it is commanded; and it was not."""
+        if row.on.service == RESET:
+            says = f"{held} is left for {shown} without ResetErr"
+            return Blame("error.left", "error", row.clause + MACHINE, says, "mode", nexts)
+        name = (
+            "command.none" if given.number is None else "command.other" if given.seen else "command.unknown"
+        )
+        rule = VR_RULES["origin.unasked" if row.name == TO_ORIGIN else name]
+        says = rule.says.format(held=held, shown=shown, number=given.number)
+        return Blame(rule.id, rule.severity, rule.clause + row.clause, says, "mode", nexts)
 
     def _refusals(
         self, ready: States, shown: str, seen: Seen

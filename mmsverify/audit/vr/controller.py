@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from mmsverify.audit.vr.blame import Blaming
+from mmsverify.audit.vr.blame import Blaming, Given
 from mmsverify.audit.vr.rules import VR_RULES
-from mmsverify.audit.vr.scans import RESET, RUN_ACTION, Scans
+from mmsverify.audit.vr.scans import RESET, RUN_ACTION, TO_ORIGIN, Scans
 from mmsverify.concrete.automaton import States
 from mmsverify.errors import DecodeError
 from mmsverify.formats import vr
@@ -20,7 +20,10 @@ from mmsverify.results import Finding
 
 MODE, STATUS, COMMAND, HOMED = "C_RunMD", "CS_RunSTA", "C_Cmd", "CF_Home"
 CELL_OF = {"mode": MODE, "status": STATUS}
+STOPS, AUTO_ORG = "CF_Stop", "CF_AutoOrg"
 SCAN = "scan"
+FROM_WITHIN = frozenset({"onErrB", "onErrS"})
+"""Commands that ScanMIO gives, and that no sample need show."""
 
 Numbers = Mapping[str, Any]
 
@@ -55,7 +58,7 @@ class Controller:
         self._wrong_status: float | None = None
         self._unhomed = False
         self._two_tables = False
-        self._begun = False
+        self._begun = self._commanded = self._went_on = False
 
     def sample(self, message: TraceMessage) -> Iterator[Finding]:
         """The findings of one sample."""
@@ -66,6 +69,7 @@ class Controller:
             return
         for bad in said.bad:
             yield self._breach(message, "vr.cell", cell=bad.name, found=bad.found)
+        self._went_on = bool(self._cells.get(AUTO_ORG))
         self._cells |= said.cells
         self._commands = self._commands[1], self._cells.get(COMMAND)
         shown: dict[str, frozenset[str]] = {}
@@ -133,24 +137,30 @@ class Controller:
             earlier |= scans.unhomed
         if not scanned:
             return scans.often(earlier)
-        seen = self._seen()
-        resets = seen is None or RESET in seen
-        return scans.once(earlier, resets=resets)
+        return scans.once(earlier, self._given().barred)
 
     def _homing_is_denied(self) -> bool:
         """Whether VR(CF_Home) is 0 in a mode that needs homing, even if the flag is a scan behind."""
         return self._cells.get(HOMED) == 0 and bool(self._mode) and self._mode <= self._scans.homed_modes
 
-    def _seen(self) -> frozenset[str] | None:
-        """The commands in C_Cmd, now or a sample ago; ``None`` where it is not recorded."""
+    def _given(self) -> Given:
+        """What has been commanded in this scan: what stands in C_Cmd, now or a sample ago.
+
+        Where C_Cmd is not recorded, or has held 0 so far, commands may come and go between the samples; but
+        an error is not left unseen. Errors are commanded from within.
+        """
         if COMMAND not in self._cells:
-            return None
-        commands = self._numbering.commands
-        return frozenset(
-            commands[int(number)]
-            for number in self._commands
-            if number is not None and int(number) in commands
-        )
+            return Given()
+        known = self._numbering.commands
+        numbers = [number for number in self._commands if number]
+        seen = frozenset(known[int(number)] for number in numbers if int(number) in known)
+        self._commanded = self._commanded or bool(numbers)
+        barred = {RESET} if not self._commanded else {*known.values()} - FROM_WITHIN
+        if self._cells.get(STOPS):
+            barred -= {"stop"}
+        if self._cells.get(AUTO_ORG) == 0 and not self._went_on:
+            barred |= {TO_ORIGIN}
+        return Given(seen, frozenset(barred) - seen, vr.plain(numbers[0]) if numbers else None)
 
     # What is told.
 
@@ -161,8 +171,8 @@ class Controller:
         by_mode = scans.agreeing(reached, _mode_of(shown))
         if "mode" in shown and not by_mode:
             (word,) = shown["mode"]
-            seen = self._seen() if scanned else None
-            found = self._blaming.of_mode(self._states if scanned else reached, word, seen)
+            given = self._given() if scanned else Given()
+            found = self._blaming.of_mode(self._states if scanned else reached, word, given)
         else:
             word = next(iter(shown.get("mode", ("unknown",))))
             late = None

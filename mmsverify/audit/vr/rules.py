@@ -45,6 +45,34 @@ VR_RULES: Mapping[str, Rule] = {
             severity="note",
         ),
         rule("status.mode", "the status cannot be so in mode {mode}", "V-PRE-0", "V-STA-N", "V-CTL02-1"),
+        rule(
+            "command.none",
+            "no command stands in C_Cmd: {held} is followed by {shown}",
+            "V-CMD02-2a",
+            "V-DO-00",
+            "V-CTL02-N",
+        ),
+        rule(
+            "command.other",
+            "C_Cmd holds {number}, which is another command: {held} is followed by {shown}",
+            "V-CMD02-2c",
+            "V-CTL02-N",
+        ),
+        rule(
+            "command.unknown",
+            "C_Cmd holds {number}, which is no command: {held} is followed by {shown}",
+            "V-CHK-4",
+            "V-DO-X",
+            "V-CMD02-2b",
+            "V-CTL02-N",
+        ),
+        rule(
+            "origin.unasked",
+            "CF_AutoOrg is 0: {held} is followed by {shown} without a command",
+            "V-NEXT-03b",
+            "V-CMD02-2a",
+            "V-CTL02-N",
+        ),
         rule("mode.next", "{held} is followed by {shown}", "V-NEXT-N", "V-CTL02-3", "V-CTL02-N"),
     )
 }

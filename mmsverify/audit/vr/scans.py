@@ -13,11 +13,13 @@ from functools import cached_property, lru_cache
 from mmsverify.concrete.automaton import Automaton, States
 from mmsverify.model import Row
 
-PRE, NEXT, RESET = "set_pre_mode", "set_next_mode", "resetErr"
+PRE, NEXT, RESET, TO_ORIGIN = "set_pre_mode", "set_next_mode", "resetErr", "goes_to_origin"
 RUN_ACTION = "Run_SubActions"
 """The mode of actions 401 to 499: where these are allowed, only a reading says."""
 REMEMBERED = 4096
 _NONE: States = frozenset()
+NOTHING: frozenset[str] = frozenset()
+"""Nothing is barred."""
 
 
 class Scans:
@@ -29,22 +31,22 @@ class Scans:
 
     def __init__(self, automaton: Automaton) -> None:
         self.automaton = automaton
-        self._after_scan: dict[tuple[int, bool], States] = {}
+        self._after_scan: dict[tuple[int, frozenset[str]], States] = {}
         self._reached: dict[int, States] = {}
         self._holding: dict[tuple[str, frozenset[str]], States] = {}
         self._remembered_once = lru_cache(maxsize=REMEMBERED)(self._once)
         self._remembered_often = lru_cache(maxsize=REMEMBERED)(self._often)
 
-    def once(self, states: States, *, resets: bool) -> States:
-        """The states after one scan; ``resets``: an error may have been reset in it."""
-        return self._remembered_once(states, resets)
+    def once(self, states: States, barred: frozenset[str] = NOTHING) -> States:
+        """The states after one scan; ``barred``: commands not given in it, rows that do not apply."""
+        return self._remembered_once(states, barred)
 
     def often(self, states: States) -> States:
         """The states after any number of scans, none included."""
         return self._remembered_often(states)
 
-    def _once(self, states: States, resets: bool) -> States:
-        return _NONE.union(*{self._from(state, resets) for state in states})
+    def _once(self, states: States, barred: frozenset[str]) -> States:
+        return _NONE.union(*{self._from(state, barred) for state in states})
 
     def _often(self, states: States) -> States:
         return _NONE.union(*{self._reach(state) for state in states})
@@ -54,7 +56,7 @@ class Scans:
         if state not in self._reached:
             met, ahead = {state}, [state]
             while ahead:
-                new = self._from(ahead.pop(), True) - met
+                new = self._from(ahead.pop(), NOTHING) - met
                 met |= new
                 for each in new:
                     if each in self._reached:
@@ -64,17 +66,17 @@ class Scans:
             self._reached[state] = frozenset(met)
         return self._reached[state]
 
-    def _from(self, state: int, resets: bool) -> States:
-        key = state, resets
+    def _from(self, state: int, barred: frozenset[str]) -> States:
+        key = state, barred
         if key not in self._after_scan:
-            self._after_scan[key] = self._scan(frozenset({state}), resets)
+            self._after_scan[key] = self._scan(frozenset({state}), barred)
         return self._after_scan[key]
 
-    def _scan(self, states: States, resets: bool) -> States:
+    def _scan(self, states: States, barred: frozenset[str]) -> States:
         ready = self.ready(states)
 
         def moves(row: Row) -> bool:
-            return "mode" in row.writes and (resets or row.on.service != RESET)
+            return "mode" in row.writes and not barred & {row.on.service, row.name}
 
         moved = self._quiet(ready | self.automaton.after(ready, moves))
         return moved | self._set(moved)
@@ -102,7 +104,7 @@ class Scans:
     @cached_property
     def homed_modes(self) -> frozenset[str]:
         """The modes of homed machines only, even of such as were homed a scan ago."""
-        value, lately = self.automaton.value, self.unhomed | self.once(self.unhomed, resets=True)
+        value, lately = self.automaton.value, self.unhomed | self.once(self.unhomed)
         every = {str(value(s, "mode")) for s in self.automaton.all}
         return frozenset(every - {str(value(s, "mode")) for s in lately})
 
