@@ -128,17 +128,21 @@ class Blaming:
         """The row that leads from here to what is shown, and was not asked for."""
         edges = (edge for s in sorted(ready) for edge in self._automaton.edges[s])
         found = (e for e in edges if barred & {e.row.on.service, e.row.name} and "mode" in e.row.writes)
-        return next((e.row for e in found if str(self._automaton.value(e.target, "mode")) == shown), None)
+        rows = [e.row for e in found if str(self._automaton.value(e.target, "mode")) == shown]
+        return min(rows, key=lambda row: (row.name != TO_ORIGIN, row.id), default=None)
 
     def _of_unasked(self, row: Row, held: str, shown: str, given: Given, nexts: tuple[str, ...]) -> Blame:
         """What is shown may follow, if it is commanded; and it was not."""
         if row.on.service == RESET:
             says = f"{held} is left for {shown} without ResetErr"
             return Blame("error.left", "error", row.clause + MACHINE, says, "mode", nexts)
-        name = (
-            "command.none" if given.number is None else "command.other" if given.seen else "command.unknown"
-        )
-        rule = VR_RULES["origin.unasked" if row.name == TO_ORIGIN else name]
+        if row.name == TO_ORIGIN:
+            name = "origin.unasked"
+        elif given.number is None:
+            name = "command.none"
+        else:
+            name = "command.other" if given.seen else "command.unknown"
+        rule = VR_RULES[name]
         says = rule.says.format(held=held, shown=shown, number=given.number)
         return Blame(rule.id, rule.severity, rule.clause + row.clause, says, "mode", nexts)
 
