@@ -239,12 +239,12 @@ def test_flipped_octets_never_crash_the_reader(
     tmp_path_factory: pytest.TempPathFactory, data: st.DataObject
 ) -> None:
     content = bytearray(recording(list(range(30)), data.draw(st.sampled_from(CHUNKINGS))))
-    for _ in range(3):
+    for _ in range(3):  # each may turn one record of another kind into a message
         content[data.draw(st.integers(8, len(content) - 1))] = data.draw(st.integers(0, 255))
     path = tmp_path_factory.mktemp("flip") / "t.mcap"
     path.write_bytes(content)
     with suppress(InputError):
-        assert len(list(read_trace(path))) <= 30
+        assert len(list(read_trace(path))) <= 33
 
 
 def written() -> bytes:
