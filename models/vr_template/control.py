@@ -3,19 +3,21 @@
 An action may take as long as it likes; when it has ended, SetNextMode leads on.
 """
 
-from mmsverify.model import Removed, Transition, internal, repaired
+from mmsverify.model import Removed, Transition, if_, internal, repaired
 
-from .vocabulary import Mode, Vocabulary
+from .vocabulary import Mode, Status, Vocabulary
+
+PRE_MODE = (
+    "V-PRE-0", "V-CTL02-1", "V-STA-N", "V-PRE-00", "V-PRE-01", "V-PRE-02", "V-PRE-03", "V-PRE-04", "V-PRE-05", "V-PRE-06",
+    "V-PRE-07", "V-PRE-08", "V-PRE-09", "V-PRE-13", "V-PRE-14", "V-PRE-15", "V-PRE-16",
+)  # fmt: skip
+"""What SetPreMode makes of each mode."""
 
 
 class Control(Vocabulary):
     """As written: what SetNextMode prints, and nothing else."""
 
-    set_pre_mode = Transition(
-        "V-PRE-0", "V-CTL02-1", "V-STA-N", "V-PRE-00", "V-PRE-01", "V-PRE-02", "V-PRE-03", "V-PRE-04", "V-PRE-05", "V-PRE-06",
-        "V-PRE-07", "V-PRE-08", "V-PRE-09", "V-PRE-13", "V-PRE-14", "V-PRE-15", "V-PRE-16",
-        on=internal("set_pre_mode"), then=[status().becomes(reported())],
-    )  # fmt: skip
+    set_pre_mode = Transition(*PRE_MODE, on=internal("set_pre_mode"), then=[status().becomes(reported())])
 
     left = [arrived().becomes(False)]
     idle_ends = Transition("V-NEXT-00", "V-SM-DbgRdy", on=internal("set_next_mode"),
@@ -59,8 +61,13 @@ class Control(Vocabulary):
 
 
 class ControlRepaired(Control):
-    """The repaired reading: errors are left by ResetErr only, and AutoOrg acts after homing only."""
+    """The repaired reading: errors are left by ResetErr only, AutoOrg acts after homing only, a pause is reported."""
 
+    pauses_now = (mode() == Mode.RUN) & paused()
+    set_pre_mode = Transition(
+        *PRE_MODE, "V-STA-10", "VR-09", on=internal("set_pre_mode"),
+        then=[status().becomes(if_(pauses_now, Status.RUN_PAUSE, reported()))],
+        repairs=repaired("VR-09", "V-PRE-06", because="otherwise no machine would ever report RunPause"))  # fmt: skip
     goes_to_origin = Transition(
         "V-NEXT-03a", "VR-10", on=internal("set_next_mode"), when=[mode() == Mode.HOME_RDY, auto_org(), arrived()],
         then=[mode().becomes(Mode.ORG), *left],

@@ -83,12 +83,7 @@ class Vocabulary(Model):
     arrived = Relation(doc="homing has ended just now, and nothing has been commanded since")
 
     reported = Derived(
-        if_(
-            mode() == Mode.RUN,
-            if_(paused(), Status.RUN_PAUSE, Status.RUN_AUTO),
-            looked_up(mode(), STATUS_OF, otherwise=status()),
-        ),
-        doc="the status that SetPreMode sets",
+        looked_up(mode(), STATUS_OF, otherwise=status()), doc="the status that SetPreMode sets, as printed"
     )
 
     waits = Derived(

@@ -28,8 +28,9 @@ BROKEN_AS_WRITTEN = {
     "home-action-returns": 4,
     "origin-action-returns": 4,
     "waits-for-commands": 4,
+    "shows-pause": None,
 }
-"""By property, the number of steps of the shortest run that breaks it."""
+"""By property, the steps of the shortest run that breaks it; none where no run does what it asks."""
 
 
 @cache
