@@ -2,7 +2,8 @@
 
 A test exercises what it names: an id of the register, or the name of what encodes one (a row, a rule, a
 property), in its own text or in that of the constants, fixtures and helpers that it uses. A marker tells what
-no text can, because it is computed: ``@pytest.mark.exercises("R-7.4.4.*", every="property")``.
+no text can, because it is computed: ``@pytest.mark.exercises("R-7.4.4.*", every="property")``, and with
+``of="mms-robot"`` of that model only.
 
 A test that only prints results made by hand exercises nothing: it counts where its file, or a helper of it,
 uses a part of mmsverify that judges.
@@ -33,6 +34,7 @@ MARK = "exercises"
 class Vocabulary:
     """What a test can name: ids, and what encodes them by name and by kind."""
 
+    model: str
     ids: Set[str]
     by_name: Mapping[str, Set[str]]
     by_kind: Mapping[str, Set[str]]
@@ -47,7 +49,9 @@ class Vocabulary:
                 by_kind.setdefault(encoding.kind, set()).add(entry.statement.id)
                 if encoding.kind not in UNSPOKEN and not encoding.name.isalpha():
                     by_name.setdefault(encoding.name, set()).add(entry.statement.id)
-        return Vocabulary({entry.statement.id for entry in register.entries}, by_name, by_kind)
+        return Vocabulary(
+            register.model, {entry.statement.id for entry in register.entries}, by_name, by_kind
+        )
 
     def named(self, text: str) -> Set[str]:
         """The statements that a text names."""
@@ -56,7 +60,10 @@ class Vocabulary:
     def marked(self, mark: ast.Call) -> Set[str]:
         """The statements that a marker names: by id or pattern, or every one that a kind of thing encodes."""
         patterns = [node.value for node in mark.args if isinstance(node, ast.Constant)]
-        every = tuple(str(key.value.value) for key in mark.keywords if isinstance(key.value, ast.Constant))
+        words = {k.arg: str(k.value.value) for k in mark.keywords if isinstance(k.value, ast.Constant)}
+        if words.get("of", self.model) != self.model:
+            return set()
+        every = (words["every"],) if "every" in words else ()
         found = {i for i in self.ids for pattern in patterns if fnmatchcase(i, str(pattern))}
         return found.union(*(ids for kind, ids in self.by_kind.items() if kind.startswith(every)))
 

@@ -28,7 +28,7 @@ def checked(variant: str) -> ModelCheck:
 
 
 @pytest.mark.slow
-@pytest.mark.exercises(every="property")
+@pytest.mark.exercises(every="property", of="mms-robot")
 def test_repaired_keeps_every_claim_for_any_number_and_reaches_what_it_says() -> None:
     for verdict in checked("repaired").verdicts:
         assert verdict.result == "proved", verdict
@@ -39,7 +39,7 @@ def test_repaired_keeps_every_claim_for_any_number_and_reaches_what_it_says() ->
 
 
 @pytest.mark.slow
-@pytest.mark.exercises(every="property")
+@pytest.mark.exercises(every="property", of="mms-robot")
 def test_as_written_breaks_the_known_claims_and_the_others_are_proved() -> None:
     verdicts = checked("as-written").verdicts
     broken = {v.name: len(v.counterexample or ()) - 1 for v in verdicts if v.result == "violated"}
@@ -101,7 +101,7 @@ def test_every_robot_state_and_every_arrow_of_figure_8_is_asked_for(variant: str
 
 
 @pytest.mark.slow
-@pytest.mark.exercises(every="property")
+@pytest.mark.exercises(every="property", of="mms-robot")
 def test_the_proof_of_repaired_stands_when_it_is_read_anew_from_its_files(tmp_path: Path) -> None:
     paths = write_certificates("mms-robot", tmp_path)
     assert len(paths) > 100

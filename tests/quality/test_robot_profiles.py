@@ -44,7 +44,7 @@ def test_a_shipped_profile_contradicts_nothing_that_is_assumed_of_robots(name: s
 
 
 @pytest.mark.slow
-@pytest.mark.exercises(every="property")
+@pytest.mark.exercises(every="property", of="mms-robot")
 @pytest.mark.parametrize("name", shipped())
 def test_repaired_keeps_every_claim_under_a_shipped_profile_and_reaches_what_it_says(name: str) -> None:
     (found,) = check_models(["mms-robot"], variant="repaired", profile=Path(name))

@@ -76,6 +76,11 @@ def test_a_marker_tells_what_the_text_cannot(tmp_path: Path, text: str) -> None:
     assert {statement for statement, _ in found(tmp_path, test_x=text)} == {"L-1", "L-2"}
 
 
+def test_a_marker_of_another_model_names_nothing_here(tmp_path: Path) -> None:
+    text = "import pytest\n@pytest.mark.exercises(every='prop', of='another')\ndef test_a():\n    pass\n"
+    assert found(tmp_path, test_x=text) == set()
+
+
 def test_the_table_that_is_written_is_the_one_that_is_read(tmp_path: Path) -> None:
     by_test, by_sample = Exercise("test", "b"), Exercise("sample", "a")
     table = written([("L-2", by_test), ("L-1", by_sample), ("L-2", by_test)])
