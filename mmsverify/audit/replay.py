@@ -42,7 +42,6 @@ class Replay:
         self.trace = trace
         self.profile = tables.get(ROBOT, {})
         self._asked, self._variant, self._tables = _known(model), variant, tables
-        self.model: ModelData = load(ROBOT, models_dir(), variant)
         self.messages = self.events = self.skipped = 0
         self.coverage: list[Coverage] = []
         self._devices: dict[str, Device] = {}
@@ -68,8 +67,13 @@ class Replay:
     def _controller(self, name: str) -> Controller:
         if name not in self._controllers:
             scans, numbering = self._framework
-            self._controllers[name] = Controller(self.trace.path, name, scans, numbering)
+            self._controllers[name] = Controller(Place(self.trace.path, name), scans, numbering)
         return self._controllers[name]
+
+    @cached_property
+    def model(self) -> ModelData:
+        """The robot standard; a recording without robots does not load it."""
+        return load(ROBOT, models_dir(), self._variant)
 
     @cached_property
     def _framework(self) -> tuple[Scans, Numbering]:

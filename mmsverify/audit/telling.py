@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
-from mmsverify.audit.rules import RULES, Breach
+from mmsverify.audit.rules import RULES, Breach, Rule
 from mmsverify.audit.words import title
 from mmsverify.concrete.belief import Blame, Outcome
 from mmsverify.concrete.belief.partial import Key
@@ -26,6 +26,20 @@ class Place:
 
     path: str
     vmd: str
+
+
+def of_rule(place: Place, message: TraceMessage, rule: Rule, breach: Breach) -> Finding:
+    """The breach of a rule by a message, as a finding."""
+    cited = breach.clause + rule.clause if breach.clause is not None else rule.clause
+    return Finding(
+        path=place.path, vmd=place.vmd,
+        index=message.index, time=message.time, topic=message.topic,
+        severity=rule.severity, rule=rule.id, clauses=cited.ids, readings=cited.readings,
+        message=rule.says.format(**breach.words),
+        expected=tuple(each.format(**breach.words) for each in rule.expects),
+        observed=rule.observed.format(**breach.words),
+        related=breach.related,
+    )  # fmt: skip
 
 
 class Telling:
@@ -92,13 +106,4 @@ class Telling:
         said = rule.says.format(**breach.words)
         if self._repeated(message, (rule.id, said), told_again=not rule.shown):
             return
-        message = breach.at or message
-        cited = breach.clause + rule.clause if breach.clause is not None else rule.clause
-        yield Finding(
-            path=self.place.path, vmd=self.place.vmd,
-            index=message.index, time=message.time, topic=message.topic,
-            severity=rule.severity, rule=rule.id, clauses=cited.ids,
-            message=said, expected=tuple(each.format(**breach.words) for each in rule.expects),
-            observed=rule.observed.format(**breach.words),
-            related=breach.related, readings=cited.readings,
-        )  # fmt: skip
+        yield of_rule(self.place, breach.at or message, rule, breach)

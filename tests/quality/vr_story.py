@@ -14,6 +14,7 @@ from functools import cache
 from vr_random import BEGIN, NAME, SCAN, automaton, framework
 from vr_runs import Sampling
 
+from mmsverify.audit.telling import Place
 from mmsverify.audit.vr import Controller, Numbering, Scans
 from mmsverify.formats.trace import Channel, TraceMessage
 from mmsverify.formats.vr import encode
@@ -56,7 +57,7 @@ def findings(story: str, kind: Sampling, reading: str = "13-16") -> list[Finding
 def audited(samples: Iterable[bytes], kind: Sampling, reading: str = "either") -> list[Finding]:
     """What an audit finds in samples as they are written."""
     numbering = Numbering(framework().options["numbers"], reading)
-    controller = Controller("told.mcap", NAME, scans(), numbering)
+    controller = Controller(Place("told.mcap", NAME), scans(), numbering)
     channel = Channel.vr(NAME, kind)
     messages = (TraceMessage(n, BEGIN + n * SCAN, channel, data) for n, data in enumerate(samples))
     return [found for message in messages for found in controller.sample(message)]

@@ -10,6 +10,7 @@ from typing import Any, Literal
 
 import pytest
 
+from mmsverify.audit.telling import Place
 from mmsverify.audit.vr import Controller, Numbering, Scans
 from mmsverify.auditing import audit_traces
 from mmsverify.concrete.automaton import Automaton
@@ -37,7 +38,7 @@ def scans() -> Scans:
 
 def audited(samples: Iterable[Any], kind: Sampling = "scan", reading: str = "either") -> list[Finding]:
     numbering = Numbering(load("vr-template", models_dir(), "repaired").options["numbers"], reading)
-    controller = Controller("made.mcap", "press", scans(), numbering)
+    controller = Controller(Place("made.mcap", "press"), scans(), numbering)
     channel = Channel.vr("press", kind)
     written = (s if isinstance(s, bytes) else json.dumps(s).encode() for s in samples)
     messages = (TraceMessage(n, 1000 * n, channel, data) for n, data in enumerate(written))

@@ -9,6 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from mmsverify.audit.rule import Breach
+from mmsverify.audit.telling import Place, of_rule
 from mmsverify.audit.vr.blame import Blaming, Given
 from mmsverify.audit.vr.rules import VR_RULES
 from mmsverify.audit.vr.scans import RESET, RUN_ACTION, TO_ORIGIN, Scans
@@ -36,6 +38,7 @@ class Numbering:
         listed = numbers["status"](sub_actions)
         self.statuses = {number: frozenset(map(str, meant)) for number, meant in listed.items()}
         self.commands: Mapping[int, str] = numbers["command"]
+        self.obeyed = frozenset(self.commands.values()) - FROM_WITHIN
 
     def number(self, name: str, word: str) -> str:
         """A word of mode or status as the number that its cell holds, or the numbers."""
@@ -46,8 +49,8 @@ class Numbering:
 class Controller:
     """The replay of one controller's samples."""
 
-    def __init__(self, path: str, name: str, scans: Scans, numbering: Numbering) -> None:
-        self.path, self.name = path, name
+    def __init__(self, place: Place, scans: Scans, numbering: Numbering) -> None:
+        self._place = place
         self._scans, self._numbering, self._blaming = scans, numbering, Blaming(scans)
         self._states: States = scans.automaton.all
         self._cells: dict[str, float] = {}
@@ -102,17 +105,16 @@ class Controller:
     def _follow(
         self, message: TraceMessage, shown: Mapping[str, frozenset[str]], said: Mapping[str, float]
     ) -> Iterator[Finding]:
-        scans, earlier = self._scans, self._states
-        reached = self._reached(scanned := message.metadata.get("sampling") == SCAN)
+        scans, earlier, everything = self._scans, self._states, self._scans.automaton.all
+        given = self._given() if message.metadata.get("sampling") == SCAN else None
+        reached = self._reached(given)
         self._begun = True
         agreeing = scans.agreeing(reached, shown)
-        found = None if agreeing else self._violation(message, reached, shown, scanned=scanned)
+        found = None if agreeing else self._violation(message, reached, shown, given)
         if found is not None:
             if found.observed.startswith(STATUS):
                 self._wrong_status = self._cells[STATUS]
-            agreeing = scans.agreeing(scans.automaton.all, shown)
-            if not agreeing:
-                agreeing = scans.agreeing(scans.automaton.all, _mode_of(shown))
+            agreeing = scans.agreeing(everything, shown) or scans.agreeing(everything, _mode_of(shown))
         if scans.agreeing(earlier, shown) != earlier:
             self._changed = message.index
         self._mode = shown.get("mode", self._mode)
@@ -128,16 +130,14 @@ class Controller:
             agreeing = scans.agreeing(agreeing, {"homed": flag}) or agreeing
         self._states = agreeing
 
-    def _reached(self, scanned: bool) -> States:
-        """The states that may follow."""
+    def _reached(self, given: Given | None) -> States:
+        """The states that may follow; ``given``: what was commanded in the scan, if there was just one."""
         scans, earlier = self._scans, self._states
         if not self._begun:
             return earlier
         if self._unhomed:  # the machine is where its flag forbids it to be: on from there as any unhomed one
             earlier |= scans.unhomed
-        if not scanned:
-            return scans.often(earlier)
-        return scans.once(earlier, self._given().barred)
+        return scans.often(earlier) if given is None else scans.once(earlier, given.barred)
 
     def _homing_is_denied(self) -> bool:
         """Whether VR(CF_Home) is 0 in a mode that needs homing, even if the flag is a scan behind."""
@@ -155,33 +155,38 @@ class Controller:
         numbers = [number for number in self._commands if number]
         seen = frozenset(known[int(number)] for number in numbers if int(number) in known)
         self._commanded = self._commanded or bool(numbers)
-        barred = {RESET} if not self._commanded else {*known.values()} - FROM_WITHIN
+        barred = self._numbering.obeyed if self._commanded else frozenset({RESET})
         if self._cells.get(STOPS):
             barred -= {"stop"}
         if self._cells.get(AUTO_ORG) == 0 and not self._went_on:
             barred |= {TO_ORIGIN}
-        return Given(seen, frozenset(barred) - seen, vr.plain(numbers[0]) if numbers else None)
+        return Given(seen, barred - seen, vr.plain(numbers[0]) if numbers else None)
 
     # What is told.
 
     def _violation(
-        self, message: TraceMessage, reached: States, shown: Mapping[str, frozenset[str]], *, scanned: bool
+        self,
+        message: TraceMessage,
+        reached: States,
+        shown: Mapping[str, frozenset[str]],
+        given: Given | None,
     ) -> Finding:
         scans = self._scans
         by_mode = scans.agreeing(reached, _mode_of(shown))
         if "mode" in shown and not by_mode:
             (word,) = shown["mode"]
-            given = self._given() if scanned else Given()
-            found = self._blaming.of_mode(self._states if scanned else reached, word, given)
+            before = reached if given is None else self._states
+            found = self._blaming.of_mode(before, word, given or Given())
         else:
             word = next(iter(shown.get("mode", ("unknown",))))
             late = None
-            if not scanned and self._mode and self._mode != shown.get("mode"):
+            if given is None and self._mode and self._mode != shown.get("mode"):
                 late = self._blaming.of_late_status(shown["status"], word)
             found = late or self._blaming.of_status(by_mode or reached, word)
         cell = CELL_OF[found.about]
         return Finding(
-            path=self.path, vmd=self.name, index=message.index, time=message.time, topic=message.topic,
+            path=self._place.path, vmd=self._place.vmd,
+            index=message.index, time=message.time, topic=message.topic,
             severity=found.severity, rule=found.rule, message=found.says,
             clauses=found.clause.ids, readings=found.clause.readings,
             expected=tuple(f"{cell}={self._numbering.number(found.about, word)}" for word in found.expected),
@@ -191,14 +196,7 @@ class Controller:
         )  # fmt: skip
 
     def _breach(self, message: TraceMessage, name: str, **words: Any) -> Finding:
-        rule = VR_RULES[name]
-        return Finding(
-            path=self.path, vmd=self.name, index=message.index, time=message.time, topic=message.topic,
-            severity=rule.severity, rule=rule.id, clauses=rule.clause.ids, readings=rule.clause.readings,
-            message=rule.says.format(**words),
-            expected=tuple(each.format(**words) for each in rule.expects),
-            observed=rule.observed.format(**words),
-        )  # fmt: skip
+        return of_rule(self._place, message, VR_RULES[name], Breach(name, words))
 
 
 def _mode_of(shown: Mapping[str, frozenset[str]]) -> dict[str, frozenset[str]]:
