@@ -91,7 +91,7 @@ def test_a_fault_of_the_independent_robot_is_found_once(name: str, tmp_path: Pat
 @pytest.mark.parametrize(
     "name",
     [
-        pytest.param(name, marks=pytest.mark.xfail(name in OPEN, reason=OPEN.get(name, ""), strict=False))
+        pytest.param(name, marks=pytest.mark.xfail(name in OPEN, reason=OPEN.get(name, ""), strict=True))
         for name in CATALOGUE
         if name not in QUICK
     ],

@@ -17,14 +17,14 @@ from mmsverify.concrete.belief.act import Refusal, settle, take
 from mmsverify.concrete.belief.blame import Blame, Outcome, before, blame
 from mmsverify.concrete.belief.constraints import Conflict, Constraints
 from mmsverify.concrete.belief.coverage import Coverage
-from mmsverify.concrete.belief.given import Watch, as_known
+from mmsverify.concrete.belief.given import Accepted, Watch, as_known
 from mmsverify.concrete.belief.goal import Goal
 from mmsverify.concrete.belief.ground import Ground, negated
 from mmsverify.concrete.belief.internal import Outstanding, Unseen, decided, not_accepted, undecided
 from mmsverify.concrete.belief.nodes import Formula
 from mmsverify.concrete.belief.partial import Key, Partial, World
 from mmsverify.concrete.belief.ready import Rows
-from mmsverify.concrete.belief.resync import forced, learned_anew, sight_lost
+from mmsverify.concrete.belief.resync import as_if_refused, forced, learned_anew, sight_lost
 from mmsverify.concrete.belief.several import distinct, widened, written
 from mmsverify.concrete.belief.values import YES, Env, exactly
 from mmsverify.model.expr import Expr
@@ -59,13 +59,12 @@ class Belief:
         self.coverage = Coverage()
         self._rows: dict[tuple[str, str], tuple[Row, ...]] = {}
         for row in model.rows:
-            self._rows[row.on.phase, row.on.service] = (
-                *self._rows.get((row.on.phase, row.on.service), ()),
-                row,
-            )
+            event = row.on.phase, row.on.service
+            self._rows[event] = (*self._rows.get(event, ()), row)
         self._outstanding: dict[str, Outstanding] = {}
         self._unsure: set[str] = set()
         self._watches: dict[str, Watch] = {}
+        self._accepted = Accepted()
         self._shown: Goal | None = None
         self._performed_in: tuple[Goal, str, Sequence[Partial]] | None = None
         self._know(facts or {})
@@ -87,7 +86,7 @@ class Belief:
         self.constraints.forget()
         self.unseen.forget()
         self.states = [after for state in self.states for after in state.meets(name, sort, cells)]
-        for watch in self._watches.values():
+        for watch in (*self._watches.values(), self._accepted):
             watch.earlier = [
                 [after for state in states for after in state.meets(name, sort, cells)]
                 for states in watch.earlier
@@ -143,8 +142,8 @@ class Belief:
         """Whether the last event showed the condition, whatever had been before."""
         if self._shown is None:
             return False
+        told, _ = self._agreeing(self._shown, [self.world.blank()])
         formula = self.ground.formula(condition, {})
-        told = self._agreeing(self._shown, [self.world.blank()])[0]
         return bool(told) and all(formula.holds(state) == YES for state in told)
 
     def _see_all(self, sort: object, given: Any) -> None:
@@ -212,11 +211,14 @@ class Belief:
         env = self.environment("response", service, bindings)
         self._outstanding.pop(slot, None)
         self._remember(slot)
-        rows = [row for row in self._rows.get(("response", service), ()) if row.answer == answer]
+        every = self._rows.get(("response", service), ())
+        rows = [row for row in every if row.answer == answer]
         goal = Goal(rows, env, self.made)
         ready = self.unseen.before(self.states, "answer", self._others(slot), goal)
         earlier = self.states
         self._performed_in = goal, slot, ready
+        if answer == PLUS:
+            self._accepted = Accepted([earlier], [row for row in every if row.answer == MINUS], env, slot)
         after, refusals = self._answered(goal, ready, slot, answer)
         if slot in self._unsure:
             self._unsure.discard(slot)
@@ -236,7 +238,8 @@ class Belief:
             return self._become(effects or self.states, earlier)
         if answer == MINUS:
             return self._refused(service, ready, env, [*effects, *self.states])
-        return self._violated(goal, ready, refusals, expected=(MINUS,), then=[*effects, *self.states])
+        undone = as_if_refused(self._accepted, self.made, self.constraints)
+        return self._violated(goal, ready, refusals, expected=(MINUS,), then=[*effects, *undone])
 
     def _shows(self, states: Sequence[Partial], service: str, bindings: Mapping[str, Any]) -> list[Partial]:
         """The states among these, with all that may happen unseen, that show this."""
@@ -310,8 +313,12 @@ class Belief:
             if watch is not None and any(self._agreed(goal, states) for states in watch.earlier):
                 continue  # it may show an earlier instant, and then says nothing about this one
             if not agreeing:
-                # Either it lies, and the belief stands; or it is true, and what it shows is learned anew.
+                # Either it lies, and the belief stands; or it is true, and what it shows is learned anew,
+                # or follows from what was before the last result(+), which was answered for nothing done.
                 then = [*self.states, *learned_anew(goal, self.states, self.constraints)]
+                undone = as_if_refused(self._accepted, self.made, self.constraints)
+                undone = self.unseen.before(undone, "observation", self._outstanding, goal)
+                then += self._agreeing(goal, undone)[0]
                 return self._violated(goal, ready, refusals, then=then)
             self.coverage.shown(goal, self.world.blank())
             self._become(agreeing)
@@ -388,7 +395,6 @@ class Belief:
         then: list[Partial],
     ) -> Outcome:
         earlier = self.states
-        near = ready or earlier
-        found = blame(self.ground, near, goal, refusals, expected=expected) if goal.rows else None
+        found = blame(self.ground, ready or earlier, goal, refusals, expected=expected) if goal.rows else None
         self._become(then or earlier)
         return Outcome(found, written(earlier, self.states))

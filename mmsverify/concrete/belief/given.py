@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 from mmsverify.concrete.belief.partial import Partial
-from mmsverify.concrete.belief.values import ABSENT, NO, YES, exactly
+from mmsverify.concrete.belief.values import ABSENT, NO, YES, Env, exactly
+from mmsverify.model.rows import Row
 from mmsverify.model.sorts import Enumeration, EnumSort, Sort
 
 
@@ -15,6 +17,15 @@ class Watch:
     """An observation that was asked for: the beliefs since then, for it may show any of these instants."""
 
     earlier: list[list[Partial]] = field(default_factory=list)
+
+
+@dataclass(slots=True)
+class Accepted(Watch):
+    """The last request that was accepted, and the belief before: what it should do may not have been done."""
+
+    rows: Sequence[Row] = ()
+    env: Env = field(default_factory=dict)
+    slot: str = ""
 
 
 def as_known(given: Any, sort: Sort | None = None) -> Any:

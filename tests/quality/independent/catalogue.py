@@ -12,11 +12,6 @@ __all__ = ["CATALOGUE", "OPEN", "Fault", "fault_robot", "fault_services", "fault
 OPEN: Mapping[str, str] = {
     "limited_attributes": "in local control, the panel may have changed the logical status",
     "status_loaded_but_empty": "a program that was never shown may have come and gone",
-    "refused_create": "the refusal of Create may be due to what was never shown",
-    "without_control_stop_free": "told again: Stop was not performed either",
-    "without_control_stop_taken": "told again: Stop was not performed either",
-    "start_calibrating": "told at what is seen next, as an error, and again: nothing was performed",
-    "calibrate_executing": "told at what is seen next, as an error, and again: nothing was performed",
-    "vmd_reset_executing": "told again: VMD Reset deleted nothing",
+    "start_calibrating": "told once, but at what is seen next: the arm may have come to rest",
 }
 """What a fault of the catalogue comes to instead of one finding at its place."""
