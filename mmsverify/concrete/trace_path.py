@@ -81,7 +81,8 @@ def _path_step(model: ModelData, scope: Scope, taken: Taken) -> PathStep:
         ids = dict.fromkeys(i for c in model.initial for i in (*c.clause.ids, *c.clause.readings))
         return PathStep("initially", {}, tuple(ids), shown)
     row = taken.row
-    action = f"{row.name} {row.answer}".strip()
+    process = f"{row.on.service}: " if "." in row.on.service else ""
+    action = f"{process}{row.name} {row.answer}".strip()
     given = {name: readable(held) for name, held in taken.bindings.items() if held is not None}
     return PathStep(action, given, row.clause.ids + row.clause.readings, shown)
 

@@ -260,5 +260,8 @@ def shown(service: str, *parameters: Element | SetOf) -> On:
 
 
 def internal(what: str, *parameters: Element | SetOf) -> On:
-    """What happens inside the controller or at its panel: no message shows it."""
+    """What happens inside the controller or at its panel: no message shows it.
+
+    Of several processes that interleave ``what`` names the one that acts, too: ``Cmd02.ScanMIO``.
+    """
     return _on("internal", what, parameters)

@@ -21,7 +21,7 @@ LITERAL = re.compile(r'"([RV]-[A-Za-z0-9.]+-[A-Za-z0-9]+)"')
 SOURCES = {"mms-robot": "robot", "vr-template": "vr"}
 """Which statements, of those that were handed to the project, each model's table tells in other words."""
 
-STILL_UNCOVERED = {"mms-robot": 0, "vr-template": 10}
+STILL_UNCOVERED = {"mms-robot": 0, "vr-template": 0}
 """How many checkable statements nothing encodes yet: a number that only goes down, and ends at nought."""
 
 
