@@ -24,7 +24,7 @@ from mmsverify.concrete.belief.internal import Outstanding, Unseen, decided, not
 from mmsverify.concrete.belief.nodes import Formula
 from mmsverify.concrete.belief.partial import Key, Partial, World
 from mmsverify.concrete.belief.ready import Rows
-from mmsverify.concrete.belief.resync import as_if_refused, forced, learned_anew, sight_lost
+from mmsverify.concrete.belief.resync import forced, learned_anew, sight_lost
 from mmsverify.concrete.belief.several import distinct, widened, written
 from mmsverify.concrete.belief.values import YES, Env, exactly
 from mmsverify.model.expr import Expr
@@ -218,7 +218,7 @@ class Belief:
         earlier = self.states
         self._performed_in = goal, slot, ready
         if answer == PLUS:
-            self._accepted = Accepted([earlier], [row for row in every if row.answer == MINUS], env, slot)
+            self._accepted = Accepted([earlier], Outstanding(slot, every, env))
         after, refusals = self._answered(goal, ready, slot, answer)
         if slot in self._unsure:
             self._unsure.discard(slot)
@@ -238,8 +238,8 @@ class Belief:
             return self._become(effects or self.states, earlier)
         if answer == MINUS:
             return self._refused(service, ready, env, [*effects, *self.states])
-        undone = as_if_refused(self._accepted, self.made, self.constraints)
-        return self._violated(goal, ready, refusals, expected=(MINUS,), then=[*effects, *undone])
+        then = [*effects, *(self._undone() or self.states)]
+        return self._violated(goal, ready, refusals, expected=(MINUS,), then=then)
 
     def _shows(self, states: Sequence[Partial], service: str, bindings: Mapping[str, Any]) -> list[Partial]:
         """The states among these, with all that may happen unseen, that show this."""
@@ -259,9 +259,7 @@ class Belief:
         found = Blame(
             f"{service}.refused", "warning", clause, "nothing stands against it", (PLUS,), shown, frozenset()
         )
-        earlier = self.states
-        self._become(then)
-        return Outcome(found, written(earlier, self.states))
+        return replace(self._become(then, self.states), blame=found)
 
     def _answered(
         self, goal: Goal, ready: Sequence[Partial], slot: str, answer: str
@@ -314,16 +312,21 @@ class Belief:
                 continue  # it may show an earlier instant, and then says nothing about this one
             if not agreeing:
                 # Either it lies, and the belief stands; or it is true, and what it shows is learned anew,
-                # or follows from what was before the last result(+), which was answered for nothing done.
+                # or follows from what was before the last result(+), which should have been a result(-).
                 then = [*self.states, *learned_anew(goal, self.states, self.constraints)]
-                undone = as_if_refused(self._accepted, self.made, self.constraints)
-                undone = self.unseen.before(undone, "observation", self._outstanding, goal)
+                undone = self.unseen.before(self._undone(), "observation", self._outstanding, goal)
                 then += self._agreeing(goal, undone)[0]
                 return self._violated(goal, ready, refusals, then=then)
             self.coverage.shown(goal, self.world.blank())
             self._become(agreeing)
             self._shown = goal
         return Outcome(written=written(earlier, self.states))
+
+    def _undone(self) -> list[Partial]:
+        """What has held since the last request that was accepted, if it was refused, as it had to be."""
+        last = self._accepted
+        refused = [state for states in last.earlier for state in self._performed(last.request, MINUS, states)]
+        return not_accepted(refused, last.request.slot)
 
     def _agreed(self, goal: Goal, states: list[Partial]) -> bool:
         return bool(self._agreeing(goal, self.unseen.before(states, "observation", {}, goal))[0])
@@ -352,17 +355,14 @@ class Belief:
         self._watches.pop(slot, None)
         self._unsure.discard(slot)
         if outstanding is not None:
-            performed = [after for answer in (PLUS, MINUS) for after in self._performed(outstanding, answer)]
-            self._become([undecided(state, slot) for state in [*self.states, *performed]])
+            performed = (self._performed(outstanding, answer, self.states) for answer in (PLUS, MINUS))
+            self._become([undecided(s, slot) for states in (self.states, *performed) for s in states])
 
-    def _performed(self, request: Outstanding, answer: str) -> list[Partial]:
-        """The states after a request has been performed and not answered."""
-        rows = [row for row in request.rows if row.answer == answer]
-        goal = Goal(rows, request.env, self.made)
-        ready = self.unseen.before(self.states, "answer", self._others(request.slot), goal)
-        return [
-            after for state in ready for ways in goal.ways for after in take(ways, state, self.constraints)[0]
-        ]
+    def _performed(self, request: Outstanding, answer: str, states: Sequence[Partial]) -> list[Partial]:
+        """The states after a request has been performed, from these, whatever was answered."""
+        goal = Goal([row for row in request.rows if row.answer == answer], request.env, self.made)
+        ready = self.unseen.before(states, "answer", self._others(request.slot), goal)
+        return self._agreeing(goal, ready)[0]
 
     # The set of states.
 
@@ -396,5 +396,4 @@ class Belief:
     ) -> Outcome:
         earlier = self.states
         found = blame(self.ground, ready or earlier, goal, refusals, expected=expected) if goal.rows else None
-        self._become(then or earlier)
-        return Outcome(found, written(earlier, self.states))
+        return replace(self._become(then or earlier, earlier), blame=found)

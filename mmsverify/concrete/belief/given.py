@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from mmsverify.concrete.belief.internal import Outstanding
 from mmsverify.concrete.belief.partial import Partial
-from mmsverify.concrete.belief.values import ABSENT, NO, YES, Env, exactly
-from mmsverify.model.rows import Row
+from mmsverify.concrete.belief.values import ABSENT, NO, YES, exactly
 from mmsverify.model.sorts import Enumeration, EnumSort, Sort
 
 
@@ -23,9 +22,7 @@ class Watch:
 class Accepted(Watch):
     """The last request that was accepted, and the belief before: what it should do may not have been done."""
 
-    rows: Sequence[Row] = ()
-    env: Env = field(default_factory=dict)
-    slot: str = ""
+    request: Outstanding = field(default_factory=lambda: Outstanding("", (), {}))
 
 
 def as_known(given: Any, sort: Sort | None = None) -> Any:

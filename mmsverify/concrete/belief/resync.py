@@ -9,11 +9,8 @@ from collections.abc import Iterator, Sequence
 
 from mmsverify.concrete.belief.act import settle, take, update
 from mmsverify.concrete.belief.constraints import Conflict, Constraints
-from mmsverify.concrete.belief.given import Accepted
 from mmsverify.concrete.belief.goal import Goal
-from mmsverify.concrete.belief.internal import not_accepted
 from mmsverify.concrete.belief.partial import UNSEEN, Key, Partial
-from mmsverify.concrete.belief.ready import Rows
 from mmsverify.concrete.belief.several import distinct
 from mmsverify.concrete.belief.values import Env
 from mmsverify.model.model import ModelData
@@ -45,12 +42,6 @@ def forced(goal: Goal, states: Sequence[Partial], constraints: Constraints) -> l
                 _without_names(after, goal.env, constraints) if isinstance(settled, Conflict) else settled
             )
     return found
-
-
-def as_if_refused(last: Accepted, made: Rows, constraints: Constraints) -> list[Partial]:
-    """What has held since the last accepted request, if it was not performed."""
-    before = [state for states in last.earlier for state in not_accepted(states, last.slot)]
-    return forced(Goal(last.rows, last.env, made), before, constraints) if last.rows else before
 
 
 def _without_names(state: Partial, env: Env, constraints: Constraints) -> Partial:
