@@ -18,6 +18,7 @@ from mmsverify.commands.audit import audit
 from mmsverify.commands.check import check
 from mmsverify.commands.clauses import clauses
 from mmsverify.commands.diagram import diagram
+from mmsverify.commands.explain import explain
 from mmsverify.commands.findings import findings
 from mmsverify.commands.imports import import_
 from mmsverify.errors import MmsverifyError
@@ -41,6 +42,7 @@ app = typer.Typer(
 )
 app.command("check")(check)
 app.command("audit")(audit)
+app.command("explain")(explain)
 app.command("import")(import_)
 app.command("diagram")(diagram)
 app.command("clauses")(clauses)

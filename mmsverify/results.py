@@ -254,3 +254,19 @@ class Survey:
     procedures: int
     faults: Sequence[Fault]
     oddities: Sequence[Oddity]
+
+
+@dataclass(frozen=True, slots=True)
+class Explanation:
+    """How a sample follows from the one before: the shortest legal way, or findings that say why none exists.
+
+    ``way`` is ``None`` where no legal way leads there; its steps hold the variables that the samples show.
+    ``scan``: whether one scan lies between the samples; else any number of them may.
+    """
+
+    path: str
+    index: int
+    controller: str
+    scan: bool
+    way: tuple[PathStep, ...] | None
+    findings: tuple[Finding, ...] = ()

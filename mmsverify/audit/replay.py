@@ -21,6 +21,7 @@ from mmsverify.concrete.machine import Machine
 from mmsverify.concrete.scope import scope_for
 from mmsverify.errors import ProfileError, UsageError
 from mmsverify.formats.mcap import McapTrace
+from mmsverify.formats.trace import TraceMessage
 from mmsverify.model import Claim, ModelData, load
 from mmsverify.resources import models_dir
 from mmsverify.results import Finding
@@ -57,14 +58,16 @@ class Replay:
                 yield from self._device(message.metadata.get("vmd", "")).message(message)
             elif message.schema_name == SAMPLES and self._asked in (None, FRAMEWORK):
                 self.events += 1
-                yield from self._controller(message.metadata.get("controller", "")).sample(message)
+                yield from self.controller(message).sample(message)
             elif (happened := link(message)) is not None:
                 self.events += 1
                 yield from self._device(message.metadata.get("name", "")).link(*happened, message)
             else:
                 self.skipped += 1
 
-    def _controller(self, name: str) -> Controller:
+    def controller(self, message: TraceMessage) -> Controller:
+        """The controller whose sample a message is."""
+        name = message.metadata.get("controller", "")
         if name not in self._controllers:
             scans, numbering = self._framework
             self._controllers[name] = Controller(Place(self.trace.path, name), scans, numbering)

@@ -21,11 +21,12 @@ from mmsverify.report import (
     check_text,
     clauses_json,
     clauses_text,
+    explanation_text,
     imports,
     survey_json,
     survey_text,
 )
-from mmsverify.results import Audit, ModelCheck, Register, Survey
+from mmsverify.results import Audit, Explanation, ModelCheck, Register, Survey
 
 __all__ = [
     "AUDIT_FORMATS",
@@ -36,6 +37,7 @@ __all__ = [
     "render_audit",
     "render_check",
     "render_clauses",
+    "render_explanation",
     "render_findings",
     "render_import",
     "require_format",
@@ -83,6 +85,11 @@ def render_check(checks: Sequence[ModelCheck], format: str) -> str:
 def render_clauses(registers: Sequence[Register], format: str, *, long: bool = False) -> str:
     """The registers in ``format``, a key of ``CLAUSES_FORMATS``; ``long``: every statement in full."""
     return CLAUSES_FORMATS[require_format(format, CLAUSES_FORMATS)](registers, long=long)
+
+
+def render_explanation(explanation: Explanation) -> str:
+    """How a sample follows from the one before, as text that ends with a line feed."""
+    return explanation_text.render(explanation)
 
 
 def render_findings(survey: Survey, format: str) -> str:

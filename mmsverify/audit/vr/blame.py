@@ -60,7 +60,7 @@ class Blaming:
     def of_status(self, agreeing: States, mode: str) -> Blame:
         """The mode can be as shown, the status cannot: ``agreeing`` are the states with that mode."""
         rule = VR_RULES["status.mode"]
-        statuses, clause = self.words(agreeing, "status"), rule.clause + self._set_pre_mode(mode)
+        statuses, clause = self.words(agreeing, "status"), rule.clause + self.set_pre_mode(mode)
         return Blame(rule.id, rule.severity, clause, rule.says.format(mode=mode), "status", statuses)
 
     def of_late_status(self, statuses: frozenset[str], mode: str) -> Blame | None:
@@ -73,9 +73,9 @@ class Blaming:
         if refused is None:
             return None
         blame = self._of_refusal(refused, " or ".join(self.words(before, "mode")), mode, ())
-        return replace(blame, clause=blame.clause + self._set_pre_mode(mode))
+        return replace(blame, clause=blame.clause + self.set_pre_mode(mode))
 
-    def _set_pre_mode(self, mode: str) -> Clause:
+    def set_pre_mode(self, mode: str) -> Clause:
         """What SetPreMode does in a mode."""
         (row,) = (row for row in self._rows if row.on.service == PRE)
         its_own = f"V-PRE-{self._mode_numbers.get(mode, 0):02}"

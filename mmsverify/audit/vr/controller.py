@@ -7,13 +7,15 @@ cells that it names and, of the others, what they held last.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 from mmsverify.audit.rule import Breach
 from mmsverify.audit.telling import Place, of_rule
 from mmsverify.audit.vr.blame import Blaming, Given
 from mmsverify.audit.vr.rules import VR_RULES
-from mmsverify.audit.vr.scans import RESET, RUN_ACTION, TO_ORIGIN, Scans
+from mmsverify.audit.vr.scans import NOTHING, PRE, RESET, RUN_ACTION, TO_ORIGIN, Scans
+from mmsverify.audit.vr.ways import Segment, Stage, shortest
 from mmsverify.concrete.automaton import States
 from mmsverify.errors import DecodeError
 from mmsverify.formats import vr
@@ -62,6 +64,7 @@ class Controller:
         self._unhomed = False
         self._two_tables = False
         self._begun = self._commanded = self._went_on = False
+        self._last: Segment | None = None
 
     def sample(self, message: TraceMessage) -> Iterator[Finding]:
         """The findings of one sample."""
@@ -82,6 +85,22 @@ class Controller:
         else:
             self._wrong_status = None
         yield from self._follow(message, shown, said.cells)
+
+    def way(self) -> tuple[Stage, ...] | None:
+        """The shortest legal way to the last sample from the one before; ``None`` where there is none.
+
+        Empty for the first sample, for a recording may begin at any time.
+        """
+        if self._last is None:
+            return ()
+        way = shortest(self._scans, self._last)
+        return way if way is None else tuple(map(self._cited, way))
+
+    def _cited(self, stage: Stage) -> Stage:
+        """The step with the clauses of its mode alone, where it is SetPreMode."""
+        if stage.row.on.service != PRE:
+            return stage
+        return replace(stage, clause=self._blaming.set_pre_mode(stage.mode))
 
     def _numbers(self, message: TraceMessage, shown: dict[str, frozenset[str]]) -> Iterator[Finding]:
         """What mode and status mean; a number without a meaning is told once, and shows nothing."""
@@ -108,8 +127,10 @@ class Controller:
         scans, earlier, everything = self._scans, self._states, self._scans.automaton.all
         given = self._given() if message.metadata.get("sampling") == SCAN else None
         reached = self._reached(given)
-        self._begun = True
         agreeing = scans.agreeing(reached, shown)
+        barred = given.barred if given else NOTHING
+        self._last = Segment(self._before(), agreeing, given is not None, barred) if self._begun else None
+        self._begun = True
         found = None if agreeing else self._violation(message, reached, shown, given)
         if found is not None:
             if found.observed.startswith(STATUS):
@@ -132,12 +153,14 @@ class Controller:
 
     def _reached(self, given: Given | None) -> States:
         """The states that may follow; ``given``: what was commanded in the scan, if there was just one."""
-        scans, earlier = self._scans, self._states
         if not self._begun:
-            return earlier
-        if self._unhomed:  # the machine is where its flag forbids it to be: on from there as any unhomed one
-            earlier |= scans.unhomed
-        return scans.often(earlier) if given is None else scans.once(earlier, given.barred)
+            return self._states
+        scans, before = self._scans, self._before()
+        return scans.often(before) if given is None else scans.once(before, given.barred)
+
+    def _before(self) -> States:
+        """The states to go on from: any unhomed one, too, where the flag forbids the machine to be there."""
+        return self._states | self._scans.unhomed if self._unhomed else self._states
 
     def _homing_is_denied(self) -> bool:
         """Whether VR(CF_Home) is 0 in a mode that needs homing, even if the flag is a scan behind."""

@@ -1,0 +1,65 @@
+"""``mmsverify explain``: the shortest legal way to a sample, or why there is none."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from mmsverify.cli import main
+from mmsverify.explaining import explain_sample
+from mmsverify.formats.mcap_write import TraceWriter
+from mmsverify.formats.trace import Channel
+from mmsverify.resources import traces_dir
+
+
+def polled(path: Path, *modes: int) -> Path:
+    """Samples of mode and status, with any number of scans between them."""
+    channel = Channel.vr("press", "polled")
+    with TraceWriter(path) as trace:
+        for number, mode in enumerate(modes):
+            trace.add(1_000_000 * number, channel, json.dumps({"C_RunMD": mode, "CS_RunSTA": mode}).encode())
+    return path
+
+
+def test_from_debugging_to_a_run_the_way_leads_over_home_and_origin(tmp_path: Path) -> None:
+    found = explain_sample(polled(tmp_path / "made.mcap", 1, 6), 1)
+    assert found.way is not None
+    assert [step.action for step in found.way if step.action != "set_pre_mode"] == [
+        "home", "home_ends", "org", "org_ends", "run",
+    ]  # fmt: skip
+    assert found.way[-1].state == {"mode": "Run", "status": "RunAuto"}
+    assert {"V-DO-01", "V-NEXT-02", "V-DO-03"} <= {cited for step in found.way for cited in step.clauses}
+
+
+def test_a_sample_like_the_one_before_needs_nothing(tmp_path: Path) -> None:
+    assert explain_sample(polled(tmp_path / "made.mcap", 5, 5), 1).way == ()
+
+
+def test_where_no_way_leads_the_finding_says_why(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = polled(tmp_path / "made.mcap", 5, 0)
+    assert main(["explain", str(path), "1"]) == 1
+    told = capsys.readouterr().out
+    assert "mode.next" in told
+    assert "no legal way leads to it" in told
+
+
+def test_a_way_is_printed_with_clauses(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["explain", str(polled(tmp_path / "made.mcap", 3, 5)), "1"]) == 0
+    told = capsys.readouterr().out
+    assert "any number of scans after the one before" in told
+    assert "V-DO-02" in told
+
+
+@pytest.mark.parametrize("index", ["9", "-2"])
+def test_an_index_beyond_the_recording_is_a_bad_request(
+    index: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["explain", str(polled(tmp_path / "made.mcap", 1, 1)), "--", index]) == 2
+    assert "there is no message" in capsys.readouterr().err
+
+
+def test_a_message_of_a_robot_is_a_bad_request(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["explain", str(traces_dir() / "faulty-vmd-stop.mcap"), "3"]) == 2
+    assert "message 3 shows no VR cells (give the index of a sample)" in capsys.readouterr().err
