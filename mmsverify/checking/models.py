@@ -14,7 +14,7 @@ from mmsverify.checking.runs import Explorer
 from mmsverify.checking.worlds import World, small_worlds
 from mmsverify.errors import ProfileError, UsageError
 from mmsverify.model.expr import Expr
-from mmsverify.model.load import load, names
+from mmsverify.model.load import load, made_for, names
 from mmsverify.model.model import ModelData
 from mmsverify.model.rows import Claim
 from mmsverify.profiles import ROBOT_TABLE, judge, load_profile, stated
@@ -52,10 +52,11 @@ def check_models(
     seconds for each property.
     """
     folder = models_dir()
-    loaded = [load(name, folder, variant) for name in models or names(folder)]
+    tables = load_profile(profile) if profile is not None else {}
+    texts = [load(name, folder, variant) for name in models or names(folder)]
+    loaded = [made_for(model, tables.get(model.name, {})) for model in texts]
     require_known(properties, loaded)
     require_sorts(scope, loaded)
-    tables = load_profile(profile) if profile is not None else {}
     checks = []
     for model in loaded:
         sizes = None if scope is None else {s.short: scope.get(s.short, 1) for s in model.sorts.values()}

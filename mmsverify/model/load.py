@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import importlib.util
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 from mmsverify.errors import ModelError, UsageError
 from mmsverify.model.misread import told
@@ -27,6 +29,13 @@ def load(name_or_path: str, folder: Path, variant: str | None = None) -> ModelDa
             cure=f"use one of {', '.join(sorted(variants))}",
         )
     return assemble(variants[wanted])
+
+
+def made_for(model: ModelData, profile: Mapping[str, Any]) -> ModelData:
+    """The model of what a profile describes, where that is more than facts: see its option ``made_for``."""
+    make = model.options.get("made_for")
+    made = make(profile) if make is not None else None
+    return model if made is None else assemble(made)
 
 
 def load_variants(name_or_path: str, folder: Path) -> dict[str, type[Model]]:

@@ -14,9 +14,10 @@ from pathlib import Path
 from typing import Any
 
 from mmsverify.errors import ProfileError
+from mmsverify.profiles.framework import COMMANDS, completed
 from mmsverify.profiles.judging import require_robot
 from mmsverify.profiles.keys import Key
-from mmsverify.profiles.registry import KEYS, ROBOT_TABLE
+from mmsverify.profiles.registry import FRAMEWORK_TABLE, KEYS, ROBOT_TABLE
 from mmsverify.profiles.robot import STANDARDIZED
 from mmsverify.profiles.shipped import found
 
@@ -70,6 +71,8 @@ def _table(model: str, given: Any, keys: Mapping[str, Key], place: str) -> dict[
     if model == ROBOT_TABLE:
         table["devices"] = table["devices"] or default_devices(table)
         require_robot(table, where)
+    if model == FRAMEWORK_TABLE:
+        table[COMMANDS] = completed(table[COMMANDS], where)
     return table
 
 

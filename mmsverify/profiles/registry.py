@@ -4,19 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from mmsverify.profiles.keys import Key, choice, flag, integer, number, numbers, span
+from mmsverify.profiles.framework import FRAMEWORK
+from mmsverify.profiles.keys import Key, integer, number, numbers, span
 from mmsverify.profiles.robot import ROBOT
 
-ROBOT_TABLE = "mms-robot"
+ROBOT_TABLE, FRAMEWORK_TABLE = "mms-robot", "vr-template"
 
 KEYS: Mapping[str, Mapping[str, Key]] = {
     ROBOT_TABLE: ROBOT,
-    "vr-template": {
-        "homed_at_power_on": flag(False, says="whether the controller is homed when it is powered"),
-        "sub_action_status": choice(
-            "either", "11-14", "13-16", says="the numbers of the sub-action statuses"
-        ),
-    },
+    FRAMEWORK_TABLE: FRAMEWORK,
     "modbus-signals": {
         "max_clients": number(4, 1, says="how many clients may be connected"),
         "address_offset": integer(0, says="what is added to a PDU address to get the signal number"),

@@ -4,22 +4,33 @@ Two tasks share VR(0) to VR(15): Cmd02 checks commands and sets the mode, Contro
 the next mode. Here each of their functions is one step; how their steps interleave is the model vr-tasks.
 """
 
+from functools import partial
+
+from .actions import Actions, ActionsRepaired
 from .commands import Commands, CommandsRepaired
 from .control import Control, ControlRepaired
 from .numbers import COMMANDS, MODES, TABLES, statuses
+from .own import machine
 from .properties import Properties, PropertiesRepaired
 from .scenario import scenario, worlds
 
-STANDARD = "template framework 1.0"
-VIEWS = {"mode": "mode", "status": "status"}
-NUMBERS = {"mode": MODES, "status": statuses, "command": COMMANDS}
+OPTIONS = {
+    "name": "vr-template", "standard": "template framework 1.0", "views": {"mode": "mode", "status": "status"},
+    "numbers": {"mode": MODES, "status": statuses, "command": COMMANDS}, "tables": TABLES,
+    "scenario": scenario, "worlds": worlds,
+}  # fmt: skip
+AS_WRITTEN = {**OPTIONS, "variant": "as-written"}
+REPAIRED = {**OPTIONS, "variant": "repaired"}
+TEXT, READING = (Control, Commands, Properties), (ControlRepaired, CommandsRepaired, PropertiesRepaired)
+"""What the framework itself does, and what must hold; what the user's own actions do comes to it."""
 
 
-class AsWritten(Control, Commands, Properties, name="vr-template", variant="as-written", standard=STANDARD, views=VIEWS,
-                numbers=NUMBERS, tables=TABLES, scenario=scenario, worlds=worlds):  # fmt: skip
+class AsWritten(
+    Control, Commands, Actions, Properties, **AS_WRITTEN, made_for=partial(machine, TEXT, AS_WRITTEN)
+):
     """The text as it stands."""
 
 
-class Repaired(ControlRepaired, CommandsRepaired, PropertiesRepaired, name="vr-template", variant="repaired", standard=STANDARD,
-               views=VIEWS, numbers=NUMBERS, tables=TABLES, scenario=scenario, worlds=worlds):  # fmt: skip
+class Repaired(ControlRepaired, CommandsRepaired, ActionsRepaired, PropertiesRepaired, **REPAIRED,
+               made_for=partial(machine, READING, REPAIRED)):  # fmt: skip
     """The reading that keeps its own rules."""

@@ -58,25 +58,6 @@ class Commands(Vocabulary):
         do("V-DO-10a", *cleared, cites=["V-DO-10b", "V-DO-10c", "V-SM-3", "V-SM-4"]),
         accept("V-DO-10a", "V-CMD-10", "V-DEV-3", "V-DEV-4"),
     ])  # fmt: skip
-    debug_action = Procedure("V-DO-101", on=response("dbgSub"), steps=[
-        refuse("V-SUBD-2", "V-CHK-2", unless=waits(), rule="debug-action.not-waiting",
-               says="an action 101-199 outside DbgRdy, HomeRdy and OrgRdy"),
-        do("V-DO-101", mode().becomes(Mode.DBG_SUB), *left), accept("V-DO-101", "V-CMD-101", "V-SUBD-1"),
-    ])  # fmt: skip
-    home_action = Procedure("V-DO-201", on=response("homeSub"), steps=[
-        refuse("V-SUBH-2", "V-CHK-2", unless=mode().isin([Mode.HOME_RDY, Mode.ORG_RDY]), rule="home-action.not-homed",
-               says="an action 201-299 outside HomeRdy and OrgRdy"),
-        do("V-DO-201", mode().becomes(Mode.HOME_SUB), *left), accept("V-DO-201", "V-CMD-201", "V-SUBH-1"),
-    ])  # fmt: skip
-    origin_action = Procedure("V-DO-301", on=response("orgSub"), steps=[
-        refuse("V-SUBO-2", "V-CHK-2", unless=mode() == Mode.ORG_RDY, rule="origin-action.not-ready",
-               says="an action 301-399 outside OrgRdy"),
-        do("V-DO-301", mode().becomes(Mode.ORG_SUB)), accept("V-DO-301", "V-CMD-301", "V-SUBO-1"),
-    ])  # fmt: skip
-    run_action = Procedure("V-DO-401", on=response("runSub"), steps=[
-        refuse("V-CMD-401", "V-CHK-2", unless=mode() == Mode.RUN, rule="run-action.not-running", says="an action 401-499 outside Run"),
-        do("V-DO-401", mode().becomes(Mode.RUN_SUB)), accept("V-DO-401", "V-CMD-401"),
-    ])  # fmt: skip
 
 
 class CommandsRepaired(Commands):
@@ -116,7 +97,3 @@ class CommandsRepaired(Commands):
         refuse("V-CHK-2", "VR-06", unless=mode().isin([Mode.ERR_B, Mode.ERR_S]), rule="reset.no-error", level="warning", says="ResetErr without an error"),
         do("V-DO-10a", *cleared, cites=["V-DO-10b", "V-DO-10c", "V-SM-3", "V-SM-4"]), accept("V-DO-10a", "V-CMD-10", "V-DEV-3", "V-DEV-4"),
     ], repairs=repaired("VR-06", "V-CHK-2", because="where there is no error there is nothing to clear"))  # fmt: skip
-    run_action = Procedure("V-DO-401", on=response("runSub"), steps=[
-        refuse("V-CHK-2", "VR-04", unless=mode() == Mode.RUN, rule="run-action.not-running", level="warning", says="an action 401-499 outside Run"),
-        do("V-DO-401", mode().becomes(Mode.RUN_SUB)), accept("V-DO-401", "V-CMD-401"),
-    ], repairs=repaired("VR-04", "V-CHK-2", because="the actions 401 to 499 are kept free, and where they are allowed is not said"))  # fmt: skip

@@ -47,15 +47,6 @@ class Control(Vocabulary):
                                           then=[mode().becomes(Mode.HOME_RDY)])  # fmt: skip
     general_error_ends = Transition("V-NEXT-09b", on=internal("set_next_mode"), when=[mode() == Mode.ERR_S, ~homed()],
                                     then=[mode().becomes(Mode.DBG_RDY)])  # fmt: skip
-    debug_action_ends = Transition("V-NEXT-13", "V-SUBD-3", on=internal("set_next_mode"), when=[mode() == Mode.DBG_SUB],
-                                   then=[mode().becomes(Mode.DBG_RDY)])  # fmt: skip
-    home_action_ends = Transition("V-NEXT-14", "V-SUBH-3", on=internal("set_next_mode"), when=[mode() == Mode.HOME_SUB],
-                                  then=[mode().becomes(Mode.HOME_RDY)])  # fmt: skip
-    origin_action_ends = Transition("V-NEXT-15", "V-SUBO-3", on=internal("set_next_mode"), when=[mode() == Mode.ORG_SUB],
-                                    then=[mode().becomes(Mode.ORG_RDY)])  # fmt: skip
-    run_action_ends = Transition("V-NEXT-16", on=internal("set_next_mode"), when=[mode() == Mode.RUN_SUB],
-                                 then=[mode().becomes(Mode.RUN)])  # fmt: skip
-
     flag_is_set = Transition("V-VR-15", "V-NEXT-03a", "V-NEXT-03b", on=internal("auto_org_changes"),
                              then=[auto_org().becomes(~auto_org())])  # fmt: skip
 
