@@ -57,6 +57,8 @@ class Properties(Vocabulary):
                                   says="actions 201-299 begin in HomeRdy or OrgRdy")  # fmt: skip
     origin_action_from_origin = Step("V-SUBO-2", ((mode().next == Mode.ORG_SUB) & changes) >> (mode() == Mode.ORG_RDY),
                                      says="actions 301-399 begin in OrgRdy")  # fmt: skip
+    run_action_from_run = Step("V-CMD-401", ((mode().next == Mode.RUN_SUB) & changes) >> (mode() == Mode.RUN),
+                               says="actions 401-499 begin in Run")  # fmt: skip
     debug_action_returns = Step("V-SUBD-3", ((mode() == Mode.DBG_SUB) & changes & ~mode().next.isin(BROKEN_OFF)) >> (mode().next == Mode.DBG_RDY),
                                 says="after an action 101-199 the machine is in DbgRdy")  # fmt: skip
     home_action_returns = Step("V-SUBH-3", ((mode() == Mode.HOME_SUB) & changes & ~mode().next.isin(BROKEN_OFF)) >> (mode().next == Mode.HOME_RDY),
