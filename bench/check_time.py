@@ -15,7 +15,7 @@ import sys
 import time
 from collections.abc import Sequence
 
-from mmsverify.profiles import shipped
+from mmsverify.profiles import ROBOT_TABLE, shipped
 
 TARGET = {"repaired": 30.0, "as-written": 60.0}
 PROFILE_TARGET = 60.0
@@ -41,7 +41,7 @@ def main(profiles: Sequence[str]) -> None:
     if not profiles:
         for variant, target in TARGET.items():
             tell(variant, target, "--variant", variant)
-    for profile in profiles or shipped():
+    for profile in profiles or shipped(ROBOT_TABLE):
         tell(profile, PROFILE_TARGET, "--profile", profile)
 
 

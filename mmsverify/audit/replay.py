@@ -24,7 +24,6 @@ from mmsverify.formats.mcap import McapTrace
 from mmsverify.formats.trace import TraceMessage
 from mmsverify.model import Claim, ModelData, load
 from mmsverify.model.load import made_for
-from mmsverify.profiles.framework import within_framework
 from mmsverify.resources import models_dir
 from mmsverify.results import Finding
 
@@ -83,9 +82,7 @@ class Replay:
     @cached_property
     def _framework(self) -> tuple[Scans, Numbering]:
         """The template framework's automaton, and what its numbers mean."""
-        profile = dict(self._tables.get(FRAMEWORK, {}))
-        # What a table allows beyond the framework is for a check to refute: no machine may do it.
-        profile["commands"] = within_framework(profile.get("commands", []))
+        profile = self._tables.get(FRAMEWORK, {})
         model = made_for(load(FRAMEWORK, models_dir(), self._variant), profile)
         numbering = Numbering(model.options["numbers"], profile.get("sub_action_status", "either"))
         # A recording may begin at any time, and of a controller that kept its homing while it was off.

@@ -8,13 +8,15 @@ for finding in judge(table):
 """
 
 from mmsverify.profiles.checks import arm_domains
+from mmsverify.profiles.framework import within_framework
 from mmsverify.profiles.judging import CHECKS, judge
 from mmsverify.profiles.reading import complete, from_metadata, load_profile, stated
-from mmsverify.profiles.registry import KEYS, ROBOT_TABLE
+from mmsverify.profiles.registry import FRAMEWORK_TABLE, KEYS, ROBOT_TABLE
 from mmsverify.profiles.shipped import shipped
 
 __all__ = [
     "CHECKS",
+    "FRAMEWORK_TABLE",
     "KEYS",
     "ROBOT_TABLE",
     "arm_domains",
@@ -24,4 +26,5 @@ __all__ = [
     "load_profile",
     "shipped",
     "stated",
+    "within_framework",
 ]

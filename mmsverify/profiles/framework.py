@@ -28,7 +28,7 @@ COMMAND: Mapping[str, Key] = {
                   "its number in VR(C_Cmd)", ("V-CMD-101", "V-CMD-201", "V-CMD-301", "V-CMD-401", "V-CHK-T")),
     "name": name(says="its name"),
     "sub_mode": Key(None, "an integer from 0", lambda v: is_int(v) and v >= 0,
-                    "what DoCmd sets VR(C_SubMD) to", ("V-DEV-5", "V-DEV-6", "V-DEV-7")),
+                    "what DoCmd sets VR(C_SubMD) to", ("V-DO-101", "V-DO-201", "V-DO-301", "V-DO-401")),
     "allowed": choices([], MODES, says="the modes in which it is allowed; where nothing is said, all that the framework has for its number",
                        clauses=("V-SUBD-2", "V-SUBH-2", "V-SUBO-2")),
     "homing": choice("keeps", "loses", "homes", says="what its action does to homing: keeps it as it is, loses it, or homes the machine",
@@ -39,7 +39,7 @@ FRAMEWORK: Mapping[str, Key] = {
     "homed_at_power_on": flag(False, says="whether the controller is homed when it is powered"),
     "sub_action_status": choice("either", "11-14", "13-16", says="the numbers of the sub-action statuses"),
     COMMANDS: tables([], COMMAND, says="the machine's own commands; where none is listed, each number of 101 to 499 is one",
-                     clauses=("V-DEV-5", "V-DEV-6", "V-DEV-7")),
+                     clauses=("V-CMD-101", "V-CMD-201", "V-CMD-301", "V-CMD-401")),
 }  # fmt: skip
 
 
@@ -50,12 +50,13 @@ def completed(entries: list[dict[str, Any]], where: str) -> list[dict[str, Any]]
     return [{**each, "allowed": each["allowed"] or list(ALLOWED[each["number"] // 100])} for each in entries]
 
 
-def within_framework(entries: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """The commands allowed only where the framework allows them, too: what a machine is to be held to."""
-    return [
+def within_framework(table: Mapping[str, Any]) -> dict[str, Any]:
+    """The table with commands allowed only where the framework allows them, too: what a machine is held to."""
+    within = [
         {**each, "allowed": [m for m in each["allowed"] if m in ALLOWED[each["number"] // 100]]}
-        for each in entries
+        for each in table[COMMANDS]
     ]
+    return {**table, COMMANDS: within}
 
 
 def _require_once(entries: list[dict[str, Any]], where: str) -> None:

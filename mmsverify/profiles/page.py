@@ -19,7 +19,8 @@ recording may carry the same keys as strings. What a profile leaves out has its 
 
 `check --profile` proves or refutes every property for robots with that profile, of any number of program invocations beside
 those that it predefines, and judges the profile itself. An error among its findings makes the exit status 1; a profile that
-no robot can have is refused with exit status 2.
+no robot can have is refused with exit status 2. A table of commands of one's own that goes beyond the template framework is no
+such profile: the property that it breaks is refuted, with the shortest run that leads there and the name of the command.
 
 This page is written by `python -m mmsverify.profiles`."""
 

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import difflib
+import tomllib
 from pathlib import Path
 
 from mmsverify.errors import ProfileError
 from mmsverify.resources import models_dir
 
 
-def shipped() -> dict[str, Path]:
-    """The shipped profiles by name."""
-    return {path.stem: path for path in sorted((models_dir() / "profiles").glob("*.toml"))}
+def shipped(model: str = "") -> dict[str, Path]:
+    """The shipped profiles by name: all, or those that have a table of the model."""
+    files = sorted((models_dir() / "profiles").glob("*.toml"))
+    return {path.stem: path for path in files if not model or model in tomllib.loads(path.read_text("utf-8"))}
 
 
 def found(profile: str | Path) -> Path:

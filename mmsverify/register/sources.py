@@ -11,7 +11,7 @@ from mmsverify.audit.rules import RULES
 from mmsverify.audit.variables import TYPES, VARIABLES
 from mmsverify.audit.vr import VR_RULES
 from mmsverify.formats.vr import CELLS
-from mmsverify.profiles import CHECKS, KEYS, ROBOT_TABLE
+from mmsverify.profiles import CHECKS, FRAMEWORK_TABLE, KEYS, ROBOT_TABLE
 from mmsverify.register.citations import Cited, citations
 from mmsverify.register.grammar import of_modules
 from mmsverify.resources import asn1_dir
@@ -26,7 +26,7 @@ TABLES: Mapping[str, tuple[tuple[str, Any], ...]] = {
         ("profile key", KEYS[ROBOT_TABLE]),
         ("profile check", CHECKS),
     ),
-    "vr-template": (("rule", VR_RULES), ("cell", CELLS)),
+    "vr-template": (("rule", VR_RULES), ("cell", CELLS), ("profile key", KEYS[FRAMEWORK_TABLE])),
 }
 """By model: what kind of thing each entry of a table is, and the table."""
 
