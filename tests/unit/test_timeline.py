@@ -1,0 +1,86 @@
+"""Timelines of controllers: what is drawn of a recording, and what cannot be."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from xml.etree import ElementTree as ET
+
+import pytest
+
+from mmsverify.cli import main
+from mmsverify.formats.mcap_write import TraceWriter
+from mmsverify.formats.trace import Channel
+from mmsverify.resources import traces_dir
+from mmsverify.timelines import timeline_svg
+
+FAULTY = traces_dir() / "faulty-press.mcap"
+PICTURE = Path(__file__).parents[2] / "docs" / "faulty-press.svg"
+
+
+def words(svg: str) -> list[str]:
+    return [
+        " ".join(each.itertext()).strip()
+        for each in ET.fromstring(svg).iter("{http://www.w3.org/2000/svg}text")
+    ]
+
+
+def made(path: Path, controller: str, *samples: bytes) -> Path:
+    with TraceWriter(path) as trace:
+        for number, data in enumerate(samples):
+            trace.add(1_000_000 * number, Channel.vr(controller, "scan"), data)
+    return path
+
+
+def test_modes_commands_and_findings_stand_in_the_picture() -> None:
+    told = words(timeline_svg(FAULTY))
+    assert {
+        "press3",
+        "Run",
+        "Home",
+        "RunAuto",
+        "resetErr",
+        "#117 home.while-running",
+        "#311 org.unhomed",
+    } <= set(told)
+
+
+def test_the_picture_of_the_readme_shows_what_an_audit_finds_today() -> None:
+    assert words(PICTURE.read_text(encoding="utf-8")) == words(timeline_svg(FAULTY))
+
+
+def test_the_same_recording_gives_the_same_picture() -> None:
+    assert timeline_svg(FAULTY) == timeline_svg(FAULTY)
+
+
+def test_numbers_without_a_word_and_samples_that_are_none_are_drawn_as_they_are(tmp_path: Path) -> None:
+    path = made(
+        tmp_path / "made.mcap",
+        "p",
+        b'{"C_RunMD": 99}',
+        b"{",
+        b'{"C_RunMD": 1.5, "C_Cmd": 250}',
+        b'{"C_RunMD": 1}',
+    )
+    assert {"99?", "1.5?", "DbgRdy", "homeSub"} <= set(words(timeline_svg(path)))
+
+
+def test_a_name_can_neither_be_markup_nor_mathematics(tmp_path: Path) -> None:
+    path = made(tmp_path / "made.mcap", "<b>$x$<b>", b'{"C_RunMD": 1}')
+    svg = timeline_svg(path)
+    assert "<b>" not in svg
+    assert "<b>$x$<b>" in words(svg)
+
+
+def test_a_recording_without_vr_cells_is_a_bad_request(capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["timeline", str(traces_dir() / "faulty-vmd-stop.mcap")]) == 2
+    assert "shows no VR cells" in capsys.readouterr().err
+
+
+def test_without_matplotlib_one_line_says_what_to_install(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.delattr("mmsverify.report.timeline", raising=False)
+    monkeypatch.setitem(sys.modules, "mmsverify.report.timeline", None)
+    assert main(["timeline", str(FAULTY)]) == 2
+    assert "pictures need matplotlib (pip install 'mmsverify[viz]')" in capsys.readouterr().err
