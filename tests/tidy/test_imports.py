@@ -45,6 +45,8 @@ ALLOWED = {
 # The composition roots tie the engines together: they may import all of the above, and the command line them.
 ROOTS = {
     "auditing": ALLOWED.keys() - {"symbolic", "graph", "report"},
+    "explaining": ALLOWED.keys() - {"symbolic", "graph", "report"},
+    "timelines": ALLOWED.keys() - {"symbolic", "graph"} | {"auditing"},
     "checking": ALLOWED.keys() - {"graph", "report"},
     "faults": ALLOWED.keys() - {"audit", "graph", "report"} | {"checking"},
     "diagrams": ALLOWED.keys() - {"audit", "report"},
@@ -58,6 +60,7 @@ HOMES = {
     "typer": {"cli", "commands"},
     "rich": {"commands"},
     "asn1tools": {"formats"},
+    "matplotlib": {"report"},
     "dpkt": {"formats"},
     "mcap": {"formats"},
     "lz4": {"formats"},
