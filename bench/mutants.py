@@ -26,8 +26,8 @@ TESTS = ROOT / "tests"
 sys.path[:0] = [str(TESTS), str(TESTS / "quality")]
 
 from mutation_page import page  # noqa: E402
-from mutation_score import CLAIM, Fate, Score, numbered_mutants  # noqa: E402
 from mutation_table import key, write  # noqa: E402
+from robot_score import CLAIM, Fate, Score, numbered_mutants  # noqa: E402
 
 PAGE = ROOT / "docs" / "mutation.md"
 PROCESSES = 2

@@ -15,8 +15,8 @@ from typing import Any
 from independent.catalogue import CATALOGUE
 from independent.chance import Talk
 from independent.tape import write
+from mutation import Mutant
 from robot_acts import LOOKS
-from robot_mutation import Mutant
 from story import Story, stories
 
 from mmsverify.audit.replay import Replay

@@ -1,36 +1,26 @@
-"""What became of all mutants when they were last judged, as a table: the page about them is made from it."""
+"""What became of all mutants of a model when they were last judged, as a table: pages are made from it."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
 
-from mutation_score import CLAIM, Any_Mutant, Fate
-from robot_mutation import Mutant
+from mutation_fate import Fate
 
-TABLE = Path(__file__).parent / "mutants.tsv"
+HERE = Path(__file__).parent
+ROBOT = HERE / "mutants.tsv"
 COLUMNS = "what\tkind\tplace\tfate\tby"
 
-Key = tuple[str, str, str]
 
-
-def key(mutant: Any_Mutant) -> Key:
-    """A mutant's name in the table: what was changed, how, where. Several of a claim may have the same."""
-    if isinstance(mutant, Mutant):
-        return mutant.what, mutant.kind, mutant.place
-    kind, claim = mutant
-    return CLAIM, kind, claim.name
-
-
-def write(fates: Sequence[Fate]) -> None:
+def write(fates: Sequence[Fate], table: Path = ROBOT) -> None:
     """Keep the fates, in the order of the mutants."""
     lines = ("\t".join((f.what, f.kind, f.place, f.fate, f.by)) for f in fates)
-    TABLE.write_text("\n".join((COLUMNS, *lines)) + "\n", encoding="utf-8")
+    table.write_text("\n".join((COLUMNS, *lines)) + "\n", encoding="utf-8")
 
 
-def read() -> list[Fate]:
+def read(table: Path = ROBOT) -> list[Fate]:
     """The fates that were kept."""
-    lines = TABLE.read_text(encoding="utf-8").splitlines()[1:]
+    lines = table.read_text(encoding="utf-8").splitlines()[1:]
     return [_fate(number, *line.split("\t")) for number, line in enumerate(lines)]
 
 

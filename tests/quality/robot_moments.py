@@ -6,8 +6,8 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 from mutant_recordings import judged
+from mutation import Mutant
 from robot_acts import Act
-from robot_mutation import Mutant
 from robot_retelling import retold, shrunk
 from robot_talk import Taken, Talk, row_name
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections import Counter
 from pathlib import Path
 
-from mutation_page import page
-from mutation_score import AUDIT, CHECK, EQUAL, OPEN, numbered_mutants
-from mutation_table import key, read
+from mutation_fate import AUDIT, CHECK, EQUAL, OPEN, key
+from mutation_table import read
+from robot_page import page
+from robot_score import numbered_mutants
 
 ROOT = Path(__file__).parents[2]
 STALE = 0.05

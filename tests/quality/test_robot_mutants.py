@@ -9,10 +9,11 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
-from mutation_score import AUDIT, CHECK, EQUAL, OPEN, Score, numbered_mutants
+from mutant_judge import Judge
+from mutation import DROPPED, LOST, Mutant, mutants
+from mutation_fate import AUDIT, CHECK, EQUAL, OPEN
 from robot import robot
-from robot_judge import Judge
-from robot_mutation import DROPPED, LOST, Mutant, mutants
+from robot_score import RobotScore, numbered_mutants
 
 EVERY = 43
 FROM = 7
@@ -55,7 +56,7 @@ def test_a_model_that_is_not_changed_loses_no_claim_and_is_equal(judge: Judge) -
 
 @pytest.mark.slow
 def test_nearly_every_mutant_of_a_sample_is_noticed(tmp_path: Path) -> None:
-    score = Score(tmp_path)
+    score = RobotScore(tmp_path)
     fates = [score.fate(number) for number in range(FROM, len(numbered_mutants()), EVERY)]
     counted = Counter(fate.fate for fate in fates)
     assert len(fates) - counted[EQUAL] >= 30

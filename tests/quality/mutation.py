@@ -1,7 +1,8 @@
-"""Mutants of the robot model: a step dropped, a condition negated, an effect lost, a target changed.
+"""Mutants of a model: a step dropped, a condition negated, an effect lost, a target changed.
 
 A mutant of a procedure's step changes every row that the step has part in, as if it were printed otherwise.
-Transitions, observations and what makes an event occur are changed alike.
+Transitions, observations and what makes an event occur are changed alike. Where a rule looks a value up in a
+table, each entry of the table can be changed, too.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from mmsverify.model.declare import Assign
 from mmsverify.model.expr import Expr
 from mmsverify.model.occurrences import Occurrence
 from mmsverify.model.rows import MINUS, Clause, Conjunct
+from mmsverify.model.show import shown
 from mmsverify.model.sorts import BOOL, EnumSort
 
 STEP, TRANSITION, OBSERVATION, EVENT = "procedure step", "transition", "observation", "event"
@@ -45,14 +47,18 @@ class Mutant:
         return replace(model, rows=tuple(row for row in rows if row is not None), occurrences=events)
 
 
-def mutants(model: ModelData) -> Iterator[Mutant]:
-    """All mutants of the rows, in order of the rows, and of the events."""
+def mutants(model: ModelData, *, entries: bool = False) -> Iterator[Mutant]:
+    """All mutants of the rows, in order of the rows, and of the events.
+
+    With ``entries`` those of the entries of tables, too.
+    """
     by_name: dict[str, list[int]] = {}
     for number, row in enumerate(model.rows):
         by_name.setdefault(row.name, []).append(number)
     for numbers in by_name.values():
         rows = {number: model.rows[number] for number in numbers}
-        yield from _numbered((*_of_conditions(rows), *_of_effects(rows)))
+        of_entries = _of_entries(rows) if entries else ()
+        yield from _numbered((*_of_conditions(rows), *_of_effects(rows), *of_entries))
     yield from _of_events(model)
 
 
@@ -112,11 +118,48 @@ def _of_effects(rows: Mapping[int, Row]) -> Iterator[Mutant]:
     """Each update lost, and each made to another value, in every row that has it."""
     for assign in dict.fromkeys(a for row in rows.values() for a in row.assigns):
         here = {n: row for n, row in rows.items() if assign in row.assigns}
-        first = next(iter(here.values()))
-        what, place = what_is(first), f"{first.name}: {assign.variable}"
+        what, place = _place(here, assign)
         yield Mutant(what, LOST, place, {n: _with(row, assign, None) for n, row in here.items()})
         other = replace(assign, value=_other(assign.value))
         yield Mutant(what, CHANGED, place, {n: _with(row, assign, other) for n, row in here.items()})
+
+
+def _place(here: Mapping[int, Row], assign: Assign) -> tuple[str, str]:
+    first = next(iter(here.values()))
+    return what_is(first), f"{first.name}: {assign.variable}"
+
+
+def _of_entries(rows: Mapping[int, Row]) -> Iterator[Mutant]:
+    """In values that depend on a condition: the condition negated, each alternative another, or as it was."""
+    for assign in dict.fromkeys(a for row in rows.values() for a in row.assigns):
+        here = {n: row for n, row in rows.items() if assign in row.assigns}
+        what, place = _place(here, assign)
+        kept = ex.Cell(assign.variable, assign.args, assign.value.sort)
+        for kind, entry, value in _entries(assign.value, kept):
+            other = replace(assign, value=value)
+            changed = {n: _with(row, assign, other) for n, row in here.items()}
+            yield Mutant(what, kind, f"{place}, {entry}", changed)
+
+
+def _entries(value: Expr, kept: Expr) -> Iterator[tuple[str, str, Expr]]:
+    """Of a value that depends on conditions: what is changed, where, and the value then."""
+    if not isinstance(value, ex.Ite):
+        return
+    of, yes, no = value.condition, value.then, value.otherwise
+    yield NEGATED, shown(of), ex.choice(ex.negation(of), yes, no)
+    for kind, entry, made in _alternative(yes, shown(of), kept):
+        yield kind, entry, ex.choice(of, made, no)
+    for kind, entry, made in _alternative(no, "otherwise", kept):
+        yield kind, entry, ex.choice(of, yes, made)
+
+
+def _alternative(value: Expr, entry: str, kept: Expr) -> Iterator[tuple[str, str, Expr]]:
+    if isinstance(value, ex.Ite):
+        yield from _entries(value, kept)
+        return
+    yield CHANGED, entry, _other(value)
+    if value != kept:
+        yield LOST, entry, kept
 
 
 def _with(row: Row, assign: Assign, other: Assign | None) -> Row:

@@ -12,7 +12,7 @@ from dataclasses import replace
 from functools import cached_property
 
 import z3
-from robot_mutation import Mutant
+from mutation import Mutant
 
 from mmsverify.model import Claim, ModelData, Row
 from mmsverify.model import expr as ex
@@ -26,16 +26,20 @@ from mmsverify.symbolic.allowed import Allowed
 from mmsverify.symbolic.induction import may_break
 from mmsverify.symbolic.translate import obligation
 
-LOCAL = {"prevented"}
-"""Parameters of answers that stand for local conditions, of which no message tells."""
+LOCAL = frozenset({"prevented"})
+"""Parameters of a robot's answers that stand for local conditions, of which no message tells."""
 NEGATED, STRICTER = "claim negated", "condition of a claim dropped"
 
 
 class Judge:
-    """Asks of mutants of one model, given all that is proved of it."""
+    """Asks of mutants of one model, given all that is proved of it.
 
-    def __init__(self, model: ModelData, *, seconds: float = 5.0) -> None:
+    ``untold``: parameters of answers that nothing recorded tells.
+    """
+
+    def __init__(self, model: ModelData, *, seconds: float = 5.0, untold: frozenset[str] = LOCAL) -> None:
         self.model = model
+        self._untold = untold
         self.claims = [claim for claim in model.claims if claim.kind != "sometimes"]
         self._allowed = Allowed(model, model.always, timeout=seconds)
         self._asked: dict[tuple[object, ...], tuple[tuple[str, Expr], ...]] = {}
@@ -120,7 +124,7 @@ class Judge:
             return False
         if self._as_real(mutant.rows):
             return True
-        choices = free_choices(self.model.rows[n] for n in mutant.rows)
+        choices = free_choices((self.model.rows[n] for n in mutant.rows), self._untold)
         return any(self._as_real(renamed(mutant.rows, choice)) for choice in choices)
 
     def _as_real(self, rows: Mapping[int, Row | None]) -> bool:
@@ -201,12 +205,12 @@ def _same(model: ModelData, name: str, left: Row, right: Row) -> Expr:
     return bind(True, refs, ex.equal(after(cell, left.assigns), after(cell, right.assigns)))
 
 
-def free_choices(rows: Iterable[Row]) -> Iterator[Ref | SetOf]:
+def free_choices(rows: Iterable[Row], untold_names: frozenset[str]) -> Iterator[Ref | SetOf]:
     """Parameters that no message tells, of which one value may be called by another's name."""
     seen = set()
     for row in rows:
         for parameter in row.parameters:
-            untold = row.on.phase == "internal" or parameter in row.choices or parameter.name in LOCAL
+            untold = row.on.phase == "internal" or parameter in row.choices or parameter.name in untold_names
             of = parameter.of
             plain = isinstance(parameter, Ref) and (of == BOOL or isinstance(of, IntSort))
             if untold and (plain or isinstance(parameter, SetOf)):
