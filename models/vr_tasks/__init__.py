@@ -8,13 +8,21 @@ interleaving.
 from .cmd02 import CommandTask, CommandTaskRepaired
 from .control02 import ActionTask, ActionTaskRepaired
 from .properties import Properties, PropertiesRepaired
+from .rounds import Rounds, RoundsRepaired
 
 STANDARD = "template framework 1.0"
 VIEWS = {"Cmd02": "cmd02", "Control02": "control02", "mode": "mode"}
 
 
 class AsWritten(
-    ActionTask, CommandTask, Properties, name="vr-tasks", variant="as-written", standard=STANDARD, views=VIEWS
+    ActionTask,
+    CommandTask,
+    Properties,
+    Rounds,
+    name="vr-tasks",
+    variant="as-written",
+    standard=STANDARD,
+    views=VIEWS,
 ):
     """The text as it stands."""
 
@@ -23,6 +31,7 @@ class Repaired(
     ActionTaskRepaired,
     CommandTaskRepaired,
     PropertiesRepaired,
+    RoundsRepaired,
     name="vr-tasks",
     variant="repaired",
     standard=STANDARD,

@@ -10,6 +10,7 @@ from .actions import Actions, ActionsRepaired
 from .commands import Commands, CommandsRepaired
 from .control import Control, ControlRepaired
 from .numbers import COMMANDS, MODES, TABLES, statuses
+from .outcomes import Outcomes, OutcomesRepaired
 from .own import machine
 from .properties import Properties, PropertiesRepaired
 from .scenario import scenario, worlds
@@ -21,16 +22,16 @@ OPTIONS = {
 }  # fmt: skip
 AS_WRITTEN = {**OPTIONS, "variant": "as-written"}
 REPAIRED = {**OPTIONS, "variant": "repaired"}
-TEXT, READING = (Control, Commands, Properties), (ControlRepaired, CommandsRepaired, PropertiesRepaired)
+TEXT = Control, Commands, Properties, Outcomes
+READING = ControlRepaired, CommandsRepaired, PropertiesRepaired, OutcomesRepaired
 """What the framework itself does, and what must hold; what the user's own actions do comes to it."""
 
 
-class AsWritten(
-    Control, Commands, Actions, Properties, **AS_WRITTEN, made_for=partial(machine, TEXT, AS_WRITTEN)
-):
+class AsWritten(Control, Commands, Actions, Properties, Outcomes, **AS_WRITTEN,
+                made_for=partial(machine, TEXT, AS_WRITTEN)):  # fmt: skip
     """The text as it stands."""
 
 
-class Repaired(ControlRepaired, CommandsRepaired, ActionsRepaired, PropertiesRepaired, **REPAIRED,
+class Repaired(ControlRepaired, CommandsRepaired, ActionsRepaired, PropertiesRepaired, OutcomesRepaired, **REPAIRED,
                made_for=partial(machine, READING, REPAIRED)):  # fmt: skip
     """The reading that keeps its own rules."""

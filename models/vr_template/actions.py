@@ -3,7 +3,21 @@
 Where a table lists them, ``own`` takes the place of this file.
 """
 
-from mmsverify.model import Procedure, Sometimes, Transition, accept, do, internal, refuse, repaired, response
+from mmsverify.model import (
+    PLUS,
+    Procedure,
+    Sometimes,
+    Step,
+    Transition,
+    accept,
+    answered,
+    do,
+    internal,
+    refuse,
+    repaired,
+    response,
+    service_is,
+)
 
 from .vocabulary import Mode, Vocabulary
 
@@ -42,6 +56,10 @@ class Actions(Vocabulary):
     run_action_ends = Transition("V-NEXT-16", on=internal("set_next_mode"), when=[mode() == Mode.RUN_SUB],
                                  then=[mode().becomes(Mode.RUN)])  # fmt: skip
 
+    action_is_done = Step("V-DO-101", (answered(PLUS) & service_is("dbgSub", "homeSub", "orgSub", "runSub"))
+                          >> (service_is("dbgSub") & (mode().next == Mode.DBG_SUB) | service_is("homeSub") & (mode().next == Mode.HOME_SUB)
+                              | service_is("orgSub") & (mode().next == Mode.ORG_SUB) | service_is("runSub") & (mode().next == Mode.RUN_SUB)),
+                          "V-DO-201", "V-DO-301", "V-DO-401", says="a user's action is done in the mode that its number belongs to")  # fmt: skip
     reaches_debug_action = Sometimes("V-SM-DbgSub", mode() == Mode.DBG_SUB)
     reaches_home_action = Sometimes("V-SM-HomeSub", mode() == Mode.HOME_SUB)
     reaches_origin_action = Sometimes("V-SM-OrgSub", mode() == Mode.ORG_SUB)

@@ -34,6 +34,8 @@ class Properties(Vocabulary):
     )
     new_home_after_serious_error = Always("V-SM-5", lost() >> ~mode().isin(HOMED), "V-SM-4",
                                           says="after a serious error nothing but debugging is possible before a new Home")  # fmt: skip
+    serious_error_costs_homing = Always("V-SM-5", mode().isin([Mode.ERR_B, Mode.ERR_B_INSERT]) >> lost(), "V-SM-ErrB",
+                                        says="in a serious error the machine counts as not homed")  # fmt: skip
     serious_error_waits = Step("V-DEV-3", ((mode() == Mode.ERR_B) & changes) >> (service_is("resetErr") | mode().next.isin(ERRORS)),
                                says="a serious error is left by ResetErr only")  # fmt: skip
     general_error_waits = Step("V-DEV-4", ((mode() == Mode.ERR_S) & changes) >> (service_is("resetErr") | mode().next.isin(ERRORS)),
@@ -87,6 +89,7 @@ class Properties(Vocabulary):
     reaches_stop = Sometimes("V-SM-Stop", mode() == Mode.STOP)
     reaches_org_ready = Sometimes("V-SM-OrgRdy", mode() == Mode.ORG_RDY)
     recovers = Sometimes("V-SM-4", (mode() == Mode.ERR_B) & (mode().next == Mode.DBG_RDY))
+    needs_home_again = Sometimes("V-SM-5", lost())
     pauses = Sometimes("V-SM-2", (mode() == Mode.RUN) & paused(), "V-DO-05")
     shows_pause = Sometimes("V-STA-10", status() == Status.RUN_PAUSE)
 

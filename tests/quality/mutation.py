@@ -7,7 +7,7 @@ table, each entry of the table can be changed, too.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
 from mmsverify.model import ModelData, Row
@@ -57,12 +57,14 @@ def mutants(model: ModelData, *, entries: bool = False) -> Iterator[Mutant]:
         by_name.setdefault(row.name, []).append(number)
     for numbers in by_name.values():
         rows = {number: model.rows[number] for number in numbers}
-        of_entries = _of_entries(rows) if entries else ()
-        yield from _numbered((*_of_conditions(rows), *_of_effects(rows), *of_entries))
+        made = [*_of_conditions(rows), *_of_effects(rows)]
+        if entries:
+            made += [entry for entry in _of_entries(rows) if all(entry.rows != m.rows for m in made)]
+        yield from _numbered(made)
     yield from _of_events(model)
 
 
-def _numbered(made: tuple[Mutant, ...]) -> Iterator[Mutant]:
+def _numbered(made: Iterable[Mutant]) -> Iterator[Mutant]:
     """Places that are alike told apart."""
     seen: dict[str, int] = {}
     for mutant in made:
