@@ -24,7 +24,10 @@ Key = tuple[str, str, str]
 
 @dataclass(frozen=True)
 class Fate:
-    """What became of a mutant: by what it is killed, or that it is none, or that it lives."""
+    """What became of a mutant: by what it is killed, or that it is none, or that it lives.
+
+    ``told``: the recording by which an audit alone tells it, where that was asked.
+    """
 
     number: int
     what: str
@@ -33,6 +36,7 @@ class Fate:
     fate: str
     by: str
     seconds: float
+    told: str = ""
 
     @property
     def open(self) -> bool:
@@ -66,8 +70,13 @@ class Score(ABC):
         """What becomes of the mutant of this number."""
         begin = time.process_time()
         mutant = self.mutants[number]
-        fate, by = self.of_rows(mutant) if isinstance(mutant, Mutant) else self.of_claim(mutant[1])
-        return Fate(number, *key(mutant), fate, by, time.process_time() - begin)
+        told = ""
+        if isinstance(mutant, Mutant):
+            fate, by = self.of_rows(mutant)
+            told = "" if fate == EQUAL else self.told(mutant)
+        else:
+            fate, by = self.of_claim(mutant[1])
+        return Fate(number, *key(mutant), fate, by, time.process_time() - begin, told)
 
     @abstractmethod
     def of_rows(self, mutant: Mutant) -> tuple[str, str]:
@@ -76,3 +85,7 @@ class Score(ABC):
     @abstractmethod
     def of_claim(self, claim: Claim) -> tuple[str, str]:
         """The fate of a changed claim, and by what."""
+
+    def told(self, _: Mutant) -> str:
+        """The recording by which an audit alone tells a change of rows; empty where that is not asked."""
+        return ""

@@ -49,12 +49,17 @@ def rules(fates: Sequence[Fate]) -> list[Fate]:
 
 def alive(fates: Sequence[Fate], reason: Reason) -> str:
     """What nothing kills, and why."""
-    return "\n".join(f"- {f.what}, {f.kind}: `{f.place}`: {reason(f)}" for f in fates if f.open)
+    return "\n".join(f"{line(fate)}: {reason(fate)}" for fate in fates if fate.open)
 
 
 def equal(fates: Sequence[Fate]) -> str:
     """The changed rules that do what the real ones do."""
-    return "\n".join(f"- {f.what}, {f.kind}: `{f.place}`" for f in rules(fates) if f.fate == EQUAL)
+    return "\n".join(line(fate) for fate in rules(fates) if fate.fate == EQUAL)
+
+
+def line(fate: Fate) -> str:
+    """What was changed, as an item of a list."""
+    return f"- {fate.what}, {fate.kind}: `{fate.place}`"
 
 
 ALIVE = "\n\n## Alive\n\n"
