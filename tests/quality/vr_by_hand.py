@@ -41,14 +41,6 @@ LAWFUL = f"""
 """
 """What the rules allow; at the end, commands that are refused and that nothing follows."""
 
-HELD = f"""
-{RUNNING} 5! 6 6:10 6:10 4* 5
-{RUNNING} 6! 6 6:10 6:10 4* 5
-{RUNNING} 5! 6 6:10 7! 6:10 6 6 6:10* 6:10 4! 7
-{READY} 7! 5:10* 5
-"""
-"""A flow that is held does not end, and what is not held is not called so."""
-
 REFUSED = (
     (refusals.OBEYED, 2),
     (refusals.POLLED, 2),
@@ -67,4 +59,4 @@ def lawful() -> list[str]:
 def wrong() -> list[str]:
     """The wrong runs."""
     told = (line[-1] for table, words in REFUSED for line in refusals.told(table, words))
-    return list(dict.fromkeys((*HELD.strip().splitlines(), *told)))
+    return list(dict.fromkeys(told))
