@@ -24,7 +24,7 @@ FAULTY = {
     ),
     "a debug action in Run": (
         'number = 101, name = "servo on", sub_mode = 1, allowed = ["Run"]',
-        {"debug-action-from-waiting": 7},
+        {"debug-action-from-waiting": 7, "only-the-flow-is-held": 8},
         "servo_on_101",
     ),
     "a run action in OrgRdy": (
