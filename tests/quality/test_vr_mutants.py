@@ -12,11 +12,11 @@ from mutation import CHANGED, DROPPED, LOST, NEGATED, Mutant, mutants
 from mutation_fate import AUDIT, CHECK, EQUAL, OPEN, key
 from mutation_subjects import DOCS, VR_TABLES, vr_text
 from mutation_table import read
-from vr_by_hand import lawful
+from vr_by_hand import UNASKED, lawful
 from vr_runs import KINDS, Sampling
 from vr_score import TASKS, TEMPLATE, VrScore, numbered_mutants, repaired
 from vr_shelf import recordings, telling
-from vr_story import findings
+from vr_story import findings, marked
 
 MODELS = (TEMPLATE, TASKS)
 RENEW = "write it anew: python bench/mutants.py --model vr-template vr-tasks --write"
@@ -94,6 +94,11 @@ def test_no_recording_tells_the_model_from_itself() -> None:
 @pytest.mark.parametrize("story", lawful())
 def test_a_right_run_written_by_hand_is_not_blamed(story: str, kind: Sampling) -> None:
     assert findings(story, kind) == []
+
+
+@pytest.mark.parametrize("story", UNASKED.strip().splitlines())
+def test_an_unasked_way_to_the_origin_is_blamed(story: str) -> None:
+    assert [found.index for found in findings(story, "scan")] == marked(story)
 
 
 # The page.

@@ -21,6 +21,9 @@ LAWFUL = f"""
 {RUNNING} 8! 8 10! 1 101! 13 1
 {RUNNING} 9! 12 12 9 9 10! 3 2! 4 5
 {RUNNING} 9! 9 8! 8 10! 1
+0 1 A 1! 2 3 4 5
+0 1 A 1! 2 3 4 5 5 3! 6 4! 7 3 3 1! 2 3 4 5
+{HOMED} 3 A 201! 14 3 3
 0 1 1! 2 4! 7 1 1! 2 3
 0 1 1! 2 8! 8 10! 1
 0 1 9! 9 10! 1
@@ -41,6 +44,13 @@ LAWFUL = f"""
 """
 """What the rules allow; at the end, commands that are refused and that nothing follows."""
 
+UNASKED = """
+0 1 A 1! 2 3 4 5 3! 6 4! 7 3 4* 5
+0 1 A 1! 2 3 4 5 201! 14 3 4* 5
+0 1 A 1! 2 3 5* 5
+"""
+"""CF_AutoOrg leads on from homing only, and to Org (VR-10)."""
+
 REFUSED = (
     (refusals.OBEYED, 2),
     (refusals.POLLED, 2),
@@ -59,4 +69,4 @@ def lawful() -> list[str]:
 def wrong() -> list[str]:
     """The wrong runs."""
     told = (line[-1] for table, words in REFUSED for line in refusals.told(table, words))
-    return list(dict.fromkeys(told))
+    return list(dict.fromkeys((*UNASKED.strip().splitlines(), *told)))

@@ -47,8 +47,9 @@ def reason(fate: Fate) -> str:
 
 
 UNTOLD = """\
-`check` kills these alone. No cell shows whether homing has ended just now, or whether a flow is held before
-the status says so; and an error comes from within, with no command that a sample could lack.
+`check` kills these alone. Most are of what no cell shows: `arrived` (homing has ended just now), `paused` (a
+flow is held, before the status says so, and until a Resume that need not be seen), `lost` (beside CF_Home,
+which tells the same); or of errors, which come from within, with no command that a sample could lack.
 """
 REASONS: dict[tuple[str, str], str] = {}
 """Why mutants live, by kind and place."""

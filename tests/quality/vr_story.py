@@ -2,7 +2,8 @@
 
 ``0 1 1! 2 3``: a number is a sample with this mode and its status, ``1!`` one in which the operator has
 written command 1 and the mode is as before; with the next sample the command is gone. ``6:10`` is mode 6 with
-status 10. CF_Home is set when Home ends, and cleared by a serious error.
+status 10. CF_Home is set when Home ends, and cleared by a serious error. ``A`` is a sample in which
+CF_AutoOrg has been set.
 A ``*`` behind a number marks the sample that is to be blamed.
 """
 
@@ -31,7 +32,9 @@ def told(story: str) -> Iterator[dict[str, int]]:
     """The samples of a story."""
     cells = {"C_RunMD": 0, "CS_RunSTA": 0, "C_Cmd": 0, "CF_Home": 0}
     for word in story.replace("*", "").split():
-        if word.endswith("!"):
+        if word == "A":
+            cells = cells | {"CF_AutoOrg": 1}
+        elif word.endswith("!"):
             cells = cells | {"C_Cmd": int(word[:-1])}
         else:
             shown, _, beside = word.partition(":")
