@@ -9,7 +9,7 @@ from functools import partial
 from .actions import Actions, ActionsRepaired
 from .commands import Commands, CommandsRepaired
 from .control import Control, ControlRepaired
-from .numbers import COMMANDS, MODES, TABLES, statuses
+from .numbers import COMMANDS, MODES, SUB_MODES, TABLES, statuses
 from .outcomes import Outcomes, OutcomesRepaired
 from .own import machine
 from .properties import Properties, PropertiesRepaired
@@ -17,7 +17,7 @@ from .scenario import scenario, worlds
 
 OPTIONS = {
     "name": "vr-template", "standard": "template framework 1.0", "views": {"mode": "mode", "status": "status"},
-    "numbers": {"mode": MODES, "status": statuses, "command": COMMANDS}, "tables": TABLES,
+    "numbers": {"mode": MODES, "status": statuses, "command": COMMANDS, "sub_mode": SUB_MODES}, "tables": TABLES,
     "scenario": scenario, "worlds": worlds,
 }  # fmt: skip
 AS_WRITTEN = {**OPTIONS, "variant": "as-written"}

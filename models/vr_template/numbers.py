@@ -67,6 +67,9 @@ def _commands(table: Iterable[Meaning]) -> dict[int, str]:
     return {number: str(each.word) for each in table for number in each.numbers if each.word is not None}
 
 
+SUB_MODES: dict[str, int | None] = dict.fromkeys(OWN.values())
+"""What DoCmd sets VR(C_SubMD) to with each command of the user's: where no table says so, any number."""
+
 COMMANDS = _commands(COMMAND_NUMBERS)
 """VR(C_Cmd): the command that each number is; 0 is none, any other number is unknown."""
 

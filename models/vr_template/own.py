@@ -76,7 +76,8 @@ def machine(
         return None
     basic = {number: command for number, command in COMMANDS.items() if number < 100}
     known = basic | {entry["number"]: word(entry) for entry in entries}
-    made = {**options, "numbers": options["numbers"] | {"command": known}}
+    sub_modes = {word(entry): entry["sub_mode"] for entry in entries}
+    made = {**options, "numbers": options["numbers"] | {"command": known, "sub_mode": sub_modes}}
 
     def declare(body: dict[str, Any]) -> None:
         for name, declared in _declared(entries):

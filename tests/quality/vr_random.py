@@ -20,6 +20,8 @@ from mmsverify.formats.mcap_write import TraceWriter
 from mmsverify.formats.trace import Channel
 from mmsverify.formats.vr import encode
 from mmsverify.model import ModelData, load
+from mmsverify.model.load import made_for
+from mmsverify.profiles import load_profile
 from mmsverify.resources import models_dir
 
 NAME = "press"
@@ -32,31 +34,34 @@ Cells = dict[str, float]
 
 
 @cache
-def framework(variant: str = "repaired") -> ModelData:
-    """The model."""
-    return load("vr-template", models_dir(), variant)
+def framework(variant: str = "repaired", machine: str = "") -> ModelData:
+    """The model; that of the machine of a shipped profile, with its own commands."""
+    model = load("vr-template", models_dir(), variant)
+    return made_for(model, load_profile(machine)["vr-template"]) if machine else model
 
 
 @cache
-def automaton() -> Automaton:
+def automaton(machine: str = "") -> Automaton:
     """All its states."""
-    model = framework()
+    model = framework(machine=machine)
     return Automaton(Machine(model, scope_for(model, {}, {})))
 
 
 class Run:
     """One controller at work; ``samples`` tells what its cells hold at the end of each scan."""
 
-    def __init__(self, seed: int, numbering: str = "11-14") -> None:
+    def __init__(self, seed: int, numbering: str = "11-14", machine: str = "") -> None:
         self._random = Random(seed)
-        numbers = framework().options["numbers"]
+        self._automaton, self._machine = automaton(machine), machine
+        numbers = framework(machine=machine).options["numbers"]
         self._modes = {str(mode): number for number, mode in numbers["mode"].items()}
         self._statuses = {str(s): n for n, (s, *_) in numbers["status"](numbering).items()}
         self._commands: Mapping[int, str] = numbers["command"]
         self._basic = sorted(n for n in self._commands if n <= 10)
+        self._sub_modes: Mapping[str, int | None] = numbers["sub_mode"]
         self._users = sorted(n for n in self._commands if n > 100)
-        start = sorted(automaton().machine.start.states)
-        self.state = automaton().states.index(self._random.choice(start))
+        start = sorted(self._automaton.machine.start.states)
+        self.state = self._automaton.states.index(self._random.choice(start))
         self.taken: set[str] = set()
         self._pausing = False
         self._cells: Cells = {"C_Cmd": 0, "C_SubMD": 0, "CF_Pause": 0, "CS_RunStepCount": 0, "CS_ErrId": 0}
@@ -75,6 +80,8 @@ class Run:
             self._try("set_next_mode")
         if self._random.random() < 0.02:
             self._try("auto_org_changes")
+        if self._machine and self._random.random() < 0.5:
+            self._try("action")
         if self._pausing and self._random.random() < 0.4:
             self._pausing = False
             self._try(self._random.choice(("pause", "step")))
@@ -87,7 +94,9 @@ class Run:
     def _given(self) -> int:
         """What the operator asks for: often what leads on from here, else anything, lawful or not."""
         open_here = {
-            edge.row.on.service for edge in automaton().edges[self.state] if edge.row.answer == "result(+)"
+            edge.row.on.service
+            for edge in self._automaton.edges[self.state]
+            if edge.row.answer == "result(+)"
         }
         onward = [n for n, command in self._commands.items() if command in open_here - BREAKING]
         if onward and self._random.random() < 0.6:
@@ -112,12 +121,13 @@ class Run:
             return False
         self._cells["CS_ErrId"] = 0
         if number > 100:
-            self._cells["C_SubMD"] = number % 100
+            set_to = self._sub_modes[command]
+            self._cells["C_SubMD"] = number % 100 if set_to is None else set_to
         return True
 
     def _try(self, event: str) -> bool:
         """Take one of the steps of an event that are open and grant it, if there are any."""
-        edges = automaton().edges[self.state]
+        edges = self._automaton.edges[self.state]
         steps = [e for e in edges if e.row.on.service == event and e.row.answer != "result(-)"]
         if steps:
             step = self._random.choice(steps)
@@ -126,7 +136,7 @@ class Run:
         return bool(steps)
 
     def _holds(self, name: str) -> str:
-        return str(automaton().value(self.state, name))
+        return str(self._automaton.value(self.state, name))
 
     def _shown(self) -> Cells:
         flags = {"CF_Home": "homed", "CF_AutoOrg": "auto_org"}
@@ -138,10 +148,10 @@ class Run:
         }
 
 
-def run(seed: int, count: int) -> list[Cells]:
+def run(seed: int, count: int, machine: str = "") -> list[Cells]:
     """A random run; its numbering goes by the seed, and every third recording begins in mid-operation."""
     late = seed % 97 if seed % 3 == 2 else 0
-    return [*Run(seed, numbering(seed)).samples(count + late)][late:]
+    return [*Run(seed, numbering(seed), machine).samples(count + late)][late:]
 
 
 def numbering(seed: int) -> str:

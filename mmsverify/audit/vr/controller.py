@@ -15,6 +15,7 @@ from mmsverify.audit.telling import Place, of_rule
 from mmsverify.audit.vr.blame import Blaming, Given
 from mmsverify.audit.vr.rules import VR_RULES
 from mmsverify.audit.vr.scans import NOTHING, PRE, RESET, RUN_ACTION, TO_ORIGIN, Scans
+from mmsverify.audit.vr.submode import SubModes
 from mmsverify.audit.vr.ways import Segment, Stage, shortest
 from mmsverify.concrete.automaton import States
 from mmsverify.errors import DecodeError
@@ -24,7 +25,7 @@ from mmsverify.results import Finding
 
 MODE, STATUS, COMMAND, HOMED = "C_RunMD", "CS_RunSTA", "C_Cmd", "CF_Home"
 CELL_OF = {"mode": MODE, "status": STATUS}
-STOPS, AUTO_ORG = "CF_Stop", "CF_AutoOrg"
+STOPS, AUTO_ORG, SUB_MODE = "CF_Stop", "CF_AutoOrg", "C_SubMD"
 SCAN = "scan"
 FROM_WITHIN = frozenset({"onErrB", "onErrS"})
 """Commands that ScanMIO gives, and that no sample need show."""
@@ -41,6 +42,7 @@ class Numbering:
         self.statuses = {number: frozenset(map(str, meant)) for number, meant in listed.items()}
         self.commands: Mapping[int, str] = numbers["command"]
         self.obeyed = frozenset(self.commands.values()) - FROM_WITHIN
+        self.sub_modes: Mapping[str, int | None] = numbers["sub_mode"]
 
     def number(self, name: str, word: str) -> str:
         """A word of mode or status as the number that its cell holds, or the numbers."""
@@ -54,6 +56,7 @@ class Controller:
     def __init__(self, place: Place, scans: Scans, numbering: Numbering) -> None:
         self._place = place
         self._scans, self._numbering, self._blaming = scans, numbering, Blaming(scans)
+        self._sub_modes = SubModes(scans, numbering.sub_modes)
         self._states: States = scans.automaton.all
         self._cells: dict[str, float] = {}
         self._told: dict[str, float] = {}
@@ -145,11 +148,26 @@ class Controller:
             found = self._breach(message, "mode.unhomed", mode=vr.plain(self._cells[MODE]))
         if found is not None:
             yield found
+        odd = found is not None or self._unhomed
         self._unhomed = denied and (self._unhomed or found is not None)
         if HOMED in said:  # the flag may be set a little earlier, or later
             flag = frozenset({str(bool(self._cells[HOMED]))})
             agreeing = scans.agreeing(agreeing, {"homed": flag}) or agreeing
         self._states = agreeing
+        if SUB_MODE in self._cells:
+            yield from self._sub_mode(message, shown, given, odd)
+
+    def _sub_mode(
+        self, message: TraceMessage, shown: Mapping[str, frozenset[str]], given: Given | None, odd: bool
+    ) -> Iterator[Finding]:
+        """What C_SubMD shows; nothing, where the mode is ``odd`` already."""
+        held = self._cells[SUB_MODE]
+        if odd:
+            self._sub_modes.begin(held, self._states)
+            return
+        breach = self._sub_modes.follow(message, held, shown, self._states, given)
+        if breach is not None:
+            yield of_rule(self._place, breach.at or message, VR_RULES[breach.rule], breach)
 
     def _reached(self, given: Given | None) -> States:
         """The states that may follow; ``given``: what was commanded in the scan, if there was just one."""

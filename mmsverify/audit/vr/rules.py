@@ -73,6 +73,31 @@ VR_RULES: Mapping[str, Rule] = {
             "V-CMD02-2a",
             "V-CTL02-N",
         ),
+        rule(
+            "sub-mode.number",
+            "an action of the user's begins and C_SubMD is {found}, where DoCmd sets {right}",
+            "V-VR-04",
+            "V-CMD02-2c",
+            expects=("C_SubMD={right}",),
+            observed="C_SubMD={found}",
+        ),
+        rule(
+            "sub-mode.changed",
+            "C_SubMD goes from {before} to {found} by a command that leaves it as it is",
+            "V-VR-04",
+            "V-CMD02-2",
+            expects=("C_SubMD={right}",),
+            observed="C_SubMD={found}",
+        ),
+        rule(
+            "sub-mode.unasked",
+            "C_SubMD goes from {before} to {found}, and no command is given",
+            "V-VR-04",
+            "V-CMD02-2a",
+            severity="warning",
+            expects=("C_SubMD={right}",),
+            observed="C_SubMD={found}",
+        ),
         rule("mode.next", "{held} is followed by {shown}", "V-NEXT-N", "V-CTL02-3", "V-CTL02-N"),
     )
 }

@@ -6,7 +6,7 @@ SetNextMode, and the status may or may not have been set again: so it lags the m
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from collections.abc import Set as AbstractSet
 from functools import cached_property, lru_cache
 
@@ -32,39 +32,55 @@ class Scans:
     def __init__(self, automaton: Automaton) -> None:
         self.automaton = automaton
         self._after_scan: dict[tuple[int, frozenset[str]], States] = {}
-        self._reached: dict[int, States] = {}
+        self._reached: dict[tuple[int, frozenset[str]], States] = {}
+        self._obeying: dict[tuple[int, frozenset[str]], States] = {}
         self._holding: dict[tuple[str, frozenset[str]], States] = {}
         self._remembered_once = lru_cache(maxsize=REMEMBERED)(self._once)
         self._remembered_often = lru_cache(maxsize=REMEMBERED)(self._often)
+        self._remembered_obeying = lru_cache(maxsize=REMEMBERED)(self._obey)
 
     def once(self, states: States, barred: frozenset[str] = NOTHING) -> States:
         """The states after one scan; ``barred``: commands not given in it, rows that do not apply."""
         return self._remembered_once(states, barred)
 
-    def often(self, states: States) -> States:
+    def often(self, states: States, barred: frozenset[str] = NOTHING) -> States:
         """The states after any number of scans, none included."""
-        return self._remembered_often(states)
+        return self._remembered_often(states, barred)
+
+    def obeying(self, states: States, commands: frozenset[str]) -> States:
+        """The states after one scan in which one of these commands has been obeyed."""
+        return self._remembered_obeying(states, commands) if commands else _NONE
 
     def _once(self, states: States, barred: frozenset[str]) -> States:
         return _NONE.union(*{self._from(state, barred) for state in states})
 
-    def _often(self, states: States) -> States:
-        return _NONE.union(*{self._reach(state) for state in states})
+    def _often(self, states: States, barred: frozenset[str]) -> States:
+        return _NONE.union(*{self._reach(state, barred) for state in states})
 
-    def _reach(self, state: int) -> States:
+    def _obey(self, states: States, commands: frozenset[str]) -> States:
+        return _NONE.union(*{self._from_obeying(state, commands) for state in states})
+
+    def _reach(self, state: int, barred: frozenset[str]) -> States:
         """What any number of scans leads to; from a state that is known it is not looked for again."""
-        if state not in self._reached:
+        if (state, barred) not in self._reached:
             met, ahead = {state}, [state]
             while ahead:
-                new = self._from(ahead.pop(), NOTHING) - met
+                new = self._from(ahead.pop(), barred) - met
                 met |= new
                 for each in new:
-                    if each in self._reached:
-                        met |= self._reached[each]
+                    if (each, barred) in self._reached:
+                        met |= self._reached[each, barred]
                     else:
                         ahead.append(each)
-            self._reached[state] = frozenset(met)
-        return self._reached[state]
+            self._reached[state, barred] = frozenset(met)
+        return self._reached[state, barred]
+
+    def _from_obeying(self, state: int, commands: frozenset[str]) -> States:
+        key = state, commands
+        if key not in self._obeying:
+            ready = self.ready(frozenset({state}))
+            self._obeying[key] = self._moved(ready, lambda row: row.on.service in commands)
+        return self._obeying[key]
 
     def _from(self, state: int, barred: frozenset[str]) -> States:
         key = state, barred
@@ -76,10 +92,19 @@ class Scans:
         ready = self.ready(states)
 
         def moves(row: Row) -> bool:
-            return "mode" in row.writes and not barred & {row.on.service, row.name}
+            return not barred & {row.on.service, row.name}
 
-        moved = self._quiet(ready | self.automaton.after(ready, moves))
-        return moved | self._set(moved)
+        return self._settling(ready) | self._moved(ready, moves)
+
+    def _moved(self, ready: States, moves: Callable[[Row], bool]) -> States:
+        """After a change of the mode by such a row."""
+        changing = self.automaton.after(ready, lambda row: "mode" in row.writes and moves(row))
+        return self._settling(changing)
+
+    def _settling(self, states: States) -> States:
+        """The status may or may not be set again."""
+        quiet = self._quiet(states)
+        return quiet | self._set(quiet)
 
     def ready(self, states: States) -> States:
         """The states in which the mode may change: the status has been set."""
