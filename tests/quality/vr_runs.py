@@ -14,9 +14,9 @@ Sampling = Literal["scan", "polled"]
 KINDS: tuple[Sampling, ...] = ("scan", "polled")
 
 
-def recording(seed: int, count: int, kind: Sampling, path: Path) -> list[Cells]:
+def recording(seed: int, count: int, kind: Sampling, path: Path, machine: str = "") -> list[Cells]:
     """The random run of a seed, recorded: its samples, all of them or those that were polled."""
-    samples = run(seed, count)
+    samples = run(seed, count, machine)
     if kind == "polled":
         samples = thinned(samples, seed)
     told = [*sparse(samples, seed)]
@@ -24,7 +24,7 @@ def recording(seed: int, count: int, kind: Sampling, path: Path) -> list[Cells]:
     return told
 
 
-def blamed(path: Path) -> list[Finding]:
+def blamed(path: Path, machine: str = "") -> list[Finding]:
     """What an audit finds, notes apart."""
-    findings = audit_traces([path], profile=None, model=None).findings
+    findings = audit_traces([path], profile=Path(machine) if machine else None, model=None).findings
     return [finding for finding in findings if finding.severity != "note"]

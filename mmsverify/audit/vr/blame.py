@@ -151,7 +151,7 @@ class Blaming:
     ) -> Iterator[tuple[tuple[Any, ...], Row, Conjunct]]:
         """The commands that lead to the mode shown, and what stands against them, with weights."""
         for row in self._rows:
-            if row.on.phase != "response" or row.answer != PLUS or shown not in _targets(row):
+            if row.on.phase != "response" or row.answer != PLUS or shown not in targets(row):
                 continue
             command = row.on.service
             # What is not seen is not ResetErr either: where there is no error, the text gives it no effect.
@@ -179,7 +179,7 @@ class Blaming:
         return found
 
 
-def _targets(row: Row) -> frozenset[str]:
+def targets(row: Row) -> frozenset[str]:
     """The modes that a row may lead to."""
     values = (node for a in row.assigns if a.variable == "mode" for node in ex.walk(a.value))
     return frozenset(str(node.value) for node in values if isinstance(node, ex.Const))

@@ -64,6 +64,7 @@ class Controller:
         self._changed: int | None = None
         self._mode: frozenset[str] = frozenset()
         self._wrong_status: float | None = None
+        self._lawless: float | None = None
         self._unhomed = False
         self._two_tables = False
         self._begun = self._commanded = self._went_on = False
@@ -87,6 +88,10 @@ class Controller:
             shown.pop("status", None)  # told; it shows nothing until it changes
         else:
             self._wrong_status = None
+        if self._lawless is not None and self._lawless == self._cells.get(MODE):
+            shown.clear()  # told; no state has this mode, and it shows nothing until it changes
+        else:
+            self._lawless = None
         yield from self._follow(message, shown, said.cells)
 
     def way(self) -> tuple[Stage, ...] | None:
@@ -139,6 +144,8 @@ class Controller:
             if found.observed.startswith(STATUS):
                 self._wrong_status = self._cells[STATUS]
             agreeing = scans.agreeing(everything, shown) or scans.agreeing(everything, _mode_of(shown))
+            if not agreeing:  # the mode of an action of which the machine has no command
+                agreeing, self._lawless = everything, self._cells[MODE]
         if scans.agreeing(earlier, shown) != earlier:
             self._changed = message.index
         self._mode = shown.get("mode", self._mode)

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from mmsverify.audit.rule import Breach
-from mmsverify.audit.vr.blame import Given
+from mmsverify.audit.vr.blame import Given, targets
 from mmsverify.audit.vr.scans import Scans
 from mmsverify.concrete.automaton import States
 from mmsverify.formats.trace import TraceMessage
@@ -41,6 +41,9 @@ class SubModes:
     def __init__(self, scans: Scans, numbers: Mapping[str, int | None]) -> None:
         self._scans, self._numbers = scans, numbers
         self._own = frozenset(numbers)
+        self._listed = ANY not in numbers.values()
+        rows = (row for row in scans.automaton.machine.model.actions if row.on.service in self._own)
+        self._acting = frozenset(mode for row in rows for mode in targets(row))
         self._belief: Belief = {}
         self._doubt: Doubt | None = None
 
@@ -57,6 +60,9 @@ class SubModes:
         samples are scans.
         """
         doubt = self._doubt
+        if doubt is None and held in self._belief and not self._may_be_set(shown):
+            self.begin(held, states)  # so it is with most samples
+            return None
         right = self._scans.agreeing(self._that_hold(held, given), shown)
         if doubt is None and not right and self._belief:
             self._doubts(message, held, shown, states, given)
@@ -65,6 +71,10 @@ class SubModes:
         if doubt is None or (right and (doubt.late or doubt.held == held)):
             return None
         return doubt.breach
+
+    def _may_be_set(self, shown: Shown) -> bool:
+        """Whether an action that would set the cell otherwise may go on: none whose number is not known."""
+        return self._listed and bool(shown.get("mode", self._acting) & self._acting)
 
     def _that_hold(self, held: float, given: Given | None) -> States:
         """The states in which the cell ought to hold this."""
