@@ -165,7 +165,7 @@ def _changes_homing(entry: Entry, going_on: GoingOn) -> Transition:
     still = homed() if loses else ~homed() | lost()
     then = [homed().becomes(False)] if loses else [homed().becomes(True), lost().becomes(False)]
     going = [mode() == group.acts, going_on.is_(entry), still]
-    return Transition(group.begin[-1], "V-VR-10", on=internal("action"), when=going, then=then)
+    return Transition(group.begin[-1], "V-VR-10", "VR-21", on=internal("action"), when=going, then=then)
 
 
 def _ends(group: Group, going_on: GoingOn) -> Transition:
