@@ -16,7 +16,7 @@ from mmsverify.audit.spoken import Listener
 from mmsverify.errors import InputError, MmsverifyError, ProfileError
 from mmsverify.events import MmsEvent
 from mmsverify.formats.mcap import McapTrace, read_trace
-from mmsverify.profiles import FRAMEWORK_TABLE, from_metadata, load_profile, within_framework
+from mmsverify.profiles import from_metadata, load_profile, within_framework
 from mmsverify.results import Audit, AuditedInput, Finding
 
 __all__ = ["annotate", "audit_traces", "read_events"]
@@ -63,9 +63,7 @@ def _audit(
     trace: McapTrace, tables: Mapping[str, Mapping[str, Any]], model: str | None, variant: str
 ) -> tuple[AuditedInput, list[Finding]]:
     begin = time.perf_counter()
-    # What a table allows beyond the framework a check refutes; no machine is excused by it.
-    held_to = {n: within_framework(t) if n == FRAMEWORK_TABLE else t for n, t in tables.items()}
-    replay = Replay(trace, held_to, model, variant)
+    replay = Replay(trace, within_framework(tables), model, variant)
     findings = list(_findings(replay, Path(trace.path)))
     if trace.truncated and not replay.messages and not findings:
         raise InputError(

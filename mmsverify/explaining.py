@@ -9,7 +9,7 @@ from mmsverify.audit.vr import SCAN, Stage
 from mmsverify.errors import InputError, UsageError
 from mmsverify.formats.mcap import read_trace
 from mmsverify.formats.trace import TraceMessage
-from mmsverify.profiles import from_metadata, load_profile
+from mmsverify.profiles import from_metadata, load_profile, within_framework
 from mmsverify.results import Explanation, Finding, PathStep
 
 __all__ = ["explain_sample"]
@@ -25,7 +25,7 @@ def explain_sample(
     """
     trace = read_trace(path)
     tables = load_profile(profile) if profile is not None else from_metadata(trace.profile, str(path))
-    replay = Replay(trace, {**load_profile(None), **tables}, FRAMEWORK, variant)
+    replay = Replay(trace, within_framework({**load_profile(None), **tables}), FRAMEWORK, variant)
     last = -1
     for message in trace:
         last = message.index

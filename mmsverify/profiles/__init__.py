@@ -8,10 +8,10 @@ for finding in judge(table):
 """
 
 from mmsverify.profiles.checks import arm_domains
-from mmsverify.profiles.framework import within_framework
+from mmsverify.profiles.framework import FRAMEWORK_TABLE, within_framework
 from mmsverify.profiles.judging import CHECKS, judge
 from mmsverify.profiles.reading import complete, from_metadata, load_profile, stated
-from mmsverify.profiles.registry import FRAMEWORK_TABLE, KEYS, ROBOT_TABLE
+from mmsverify.profiles.registry import KEYS, ROBOT_TABLE
 from mmsverify.profiles.shipped import shipped
 
 __all__ = [

@@ -20,7 +20,7 @@ ALLOWED: Mapping[int, tuple[str, ...]] = {
 }
 """The modes in which the framework allows the commands of each hundred."""
 MODES = (*ALLOWED[1], *ALLOWED[4])
-COMMANDS = "commands"
+FRAMEWORK_TABLE, COMMANDS = "vr-template", "commands"
 
 COMMAND: Mapping[str, Key] = {
     "number": Key(None, "an integer of 101-199, 201-299, 301-399 or 401-499",
@@ -50,13 +50,17 @@ def completed(entries: list[dict[str, Any]], where: str) -> list[dict[str, Any]]
     return [{**each, "allowed": each["allowed"] or list(ALLOWED[each["number"] // 100])} for each in entries]
 
 
-def within_framework(table: Mapping[str, Any]) -> dict[str, Any]:
-    """The table with commands allowed only where the framework allows them, too: what a machine is held to."""
+def within_framework(tables: Mapping[str, Mapping[str, Any]]) -> dict[str, Mapping[str, Any]]:
+    """The tables with commands allowed only where the framework allows them, too: what a machine is held to.
+
+    What a table allows beyond the framework a check refutes; no machine is excused by it.
+    """
+    table = tables.get(FRAMEWORK_TABLE, {})
     within = [
         {**each, "allowed": [m for m in each["allowed"] if m in ALLOWED[each["number"] // 100]]}
-        for each in table[COMMANDS]
+        for each in table.get(COMMANDS, ())
     ]
-    return {**table, COMMANDS: within}
+    return {**tables, FRAMEWORK_TABLE: {**table, COMMANDS: within}}
 
 
 def _require_once(entries: list[dict[str, Any]], where: str) -> None:

@@ -14,10 +14,10 @@ from pathlib import Path
 from typing import Any
 
 from mmsverify.errors import ProfileError
-from mmsverify.profiles.framework import COMMANDS, completed
+from mmsverify.profiles.framework import COMMANDS, FRAMEWORK_TABLE, completed
 from mmsverify.profiles.judging import require_robot
 from mmsverify.profiles.keys import Key
-from mmsverify.profiles.registry import FRAMEWORK_TABLE, KEYS, ROBOT_TABLE
+from mmsverify.profiles.registry import KEYS, ROBOT_TABLE
 from mmsverify.profiles.robot import STANDARDIZED
 from mmsverify.profiles.shipped import found
 

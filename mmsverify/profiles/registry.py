@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from mmsverify.profiles.framework import FRAMEWORK
+from mmsverify.profiles.framework import FRAMEWORK, FRAMEWORK_TABLE
 from mmsverify.profiles.keys import Key, integer, number, numbers, span
 from mmsverify.profiles.robot import ROBOT
 
-ROBOT_TABLE, FRAMEWORK_TABLE = "mms-robot", "vr-template"
+ROBOT_TABLE = "mms-robot"
 
 KEYS: Mapping[str, Mapping[str, Key]] = {
     ROBOT_TABLE: ROBOT,

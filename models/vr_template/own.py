@@ -150,7 +150,7 @@ def _begins(entry: Entry, going_on: GoingOn) -> Procedure:
         refuse(*group.forbid, unless=mode().isin(framework), rule=group.rule, level=group.level,
                says=f"{called} outside {_listed(framework)}"),
         refuse("V-CHK-2", *group.begin[:1], unless=mode().isin(allowed), rule="own-command.not-allowed",
-               says=f"{called}, which the profile allows {f'in {_listed(allowed)} only' if allowed else 'nowhere'}"),
+               says=f"{called}, which the profile allows {f'in {_listed(allowed)} only' if allowed else 'nowhere where the framework does'}"),
         do(group.begin[0], mode().becomes(group.acts), arrived().becomes(False), *going_on.begins(entry)),
         accept(*group.begin),
     ]  # fmt: skip

@@ -122,9 +122,9 @@ def test_a_command_is_allowed_where_the_framework_has_it_unless_it_says_otherwis
 
 def test_a_machine_is_held_to_what_both_its_table_and_the_framework_allow(tmp_path: Path) -> None:
     path = written(tmp_path, command('number = 201\nsub_mode = 1\nallowed = ["DbgRdy", "OrgRdy"]'))
-    table = load_profile(path)["vr-template"]
-    assert table["commands"][0]["allowed"] == ["DbgRdy", "OrgRdy"]
-    assert within_framework(table)["commands"][0]["allowed"] == ["OrgRdy"]
+    tables = load_profile(path)
+    assert tables["vr-template"]["commands"][0]["allowed"] == ["DbgRdy", "OrgRdy"]
+    assert within_framework(tables)["vr-template"]["commands"][0]["allowed"] == ["OrgRdy"]
 
 
 @pytest.mark.parametrize(
