@@ -20,7 +20,8 @@ sys.exit(main(["audit", "a.mcap"]))
 """
 
 WAITING = """
-import sys, time, types
+import signal, sys, time, types
+signal.signal(signal.SIGINT, signal.default_int_handler)  # tests in the background inherit that it is ignored
 from mmsverify.cli import main
 def check_models(*_, **__):
     print("ready", flush=True)

@@ -17,14 +17,14 @@ from mmsverify.concrete.belief.act import Refusal, settle, take
 from mmsverify.concrete.belief.blame import Blame, Outcome, before, blame
 from mmsverify.concrete.belief.constraints import Conflict, Constraints
 from mmsverify.concrete.belief.coverage import Coverage
-from mmsverify.concrete.belief.given import Accepted, Watch, as_known
+from mmsverify.concrete.belief.given import Asked, Watch, as_known
 from mmsverify.concrete.belief.goal import Goal
 from mmsverify.concrete.belief.ground import Ground, negated
 from mmsverify.concrete.belief.internal import Outstanding, Unseen, decided, not_accepted, undecided
 from mmsverify.concrete.belief.nodes import Formula
 from mmsverify.concrete.belief.partial import Key, Partial, World
 from mmsverify.concrete.belief.ready import Rows
-from mmsverify.concrete.belief.resync import forced, learned_anew, sight_lost
+from mmsverify.concrete.belief.resync import as_if_refused, forced, learned_anew, sight_lost
 from mmsverify.concrete.belief.several import distinct, widened, written
 from mmsverify.concrete.belief.values import YES, Env, exactly
 from mmsverify.model.expr import Expr
@@ -64,7 +64,8 @@ class Belief:
         self._outstanding: dict[str, Outstanding] = {}
         self._unsure: set[str] = set()
         self._watches: dict[str, Watch] = {}
-        self._accepted = Accepted()
+        self._asked: dict[str, Asked] = {}
+        self._accepted = Asked()
         self._shown: Goal | None = None
         self._performed_in: tuple[Goal, str, Sequence[Partial]] | None = None
         self._know(facts or {})
@@ -86,7 +87,7 @@ class Belief:
         self.constraints.forget()
         self.unseen.forget()
         self.states = [after for state in self.states for after in state.meets(name, sort, cells)]
-        for watch in (*self._watches.values(), self._accepted):
+        for watch in (*self._watches.values(), *self._asked.values(), self._accepted):
             watch.earlier = [
                 [after for state in states for after in state.meets(name, sort, cells)]
                 for states in watch.earlier
@@ -167,12 +168,15 @@ class Belief:
         env = self.environment("indication", service, bindings)
         env |= self.environment("response", service, bindings)
         rows = self._rows.get(("indication", service), ())
+        goal = Goal(rows, env, self.made)
+        arrived = [after for state in self.states for after in self._indicated(goal, state)]
+        request = Outstanding(slot, self._rows.get(("response", service), ()), env)
+        self._asked[slot] = Asked([arrived], request)
         if rows:
-            goal = Goal(rows, env, self.made)
             ready = self.unseen.before(self.states, "answer", self._others(slot), goal)
             self._become([after for state in ready for after in self._indicated(goal, state)])
-        if ("response", service) in self._rows:
-            self._outstanding[slot] = Outstanding(slot, self._rows["response", service], env)
+        if request.rows:
+            self._outstanding[slot] = request
 
     def _indicated(self, goal: Goal, state: Partial) -> list[Partial]:
         """The state after the row that applies, or unchanged where none does."""
@@ -217,8 +221,8 @@ class Belief:
         ready = self.unseen.before(self.states, "answer", self._others(slot), goal)
         earlier = self.states
         self._performed_in = goal, slot, ready
-        if answer == PLUS:
-            self._accepted = Accepted([earlier], Outstanding(slot, every, env))
+        if (asked := self._asked.pop(slot, None)) is not None and answer == PLUS:
+            self._accepted = asked
         after, refusals = self._answered(goal, ready, slot, answer)
         if slot in self._unsure:
             self._unsure.discard(slot)
@@ -238,7 +242,8 @@ class Belief:
             return self._become(effects or self.states, earlier)
         if answer == MINUS:
             return self._refused(service, ready, env, [*effects, *self.states])
-        then = [*effects, *(self._undone() or self.states)]
+        refused = not_accepted(self._performed(Outstanding(slot, every, env), MINUS, earlier), slot)
+        then = [*effects, *(refused or self.states)]
         return self._violated(goal, ready, refusals, expected=(MINUS,), then=then)
 
     def _shows(self, states: Sequence[Partial], service: str, bindings: Mapping[str, Any]) -> list[Partial]:
@@ -314,19 +319,14 @@ class Belief:
                 # Either it lies, and the belief stands; or it is true, and what it shows is learned anew,
                 # or follows from what was before the last result(+), which should have been a result(-).
                 then = [*self.states, *learned_anew(goal, self.states, self.constraints)]
-                undone = self.unseen.before(self._undone(), "observation", self._outstanding, goal)
+                undone = as_if_refused(self._accepted, self.made, self.constraints)
+                undone = self.unseen.before(undone, "observation", self._outstanding, goal)
                 then += self._agreeing(goal, undone)[0]
                 return self._violated(goal, ready, refusals, then=then)
             self.coverage.shown(goal, self.world.blank())
             self._become(agreeing)
             self._shown = goal
         return Outcome(written=written(earlier, self.states))
-
-    def _undone(self) -> list[Partial]:
-        """What has held since the last request that was accepted, if it was refused, as it had to be."""
-        last = self._accepted
-        refused = [state for states in last.earlier for state in self._performed(last.request, MINUS, states)]
-        return not_accepted(refused, last.request.slot)
 
     def _agreed(self, goal: Goal, states: list[Partial]) -> bool:
         return bool(self._agreeing(goal, self.unseen.before(states, "observation", {}, goal))[0])
@@ -352,6 +352,7 @@ class Belief:
     def drop(self, slot: str) -> None:
         """A request will not be answered any more; whether it was performed is not known."""
         outstanding = self._outstanding.pop(slot, None)
+        self._asked.pop(slot, None)
         self._watches.pop(slot, None)
         self._unsure.discard(slot)
         if outstanding is not None:

@@ -19,8 +19,8 @@ class Watch:
 
 
 @dataclass(slots=True)
-class Accepted(Watch):
-    """The last request that was accepted, and the belief before: what it should do may not have been done."""
+class Asked(Watch):
+    """A request and the belief when it came, whatever has happened unseen until its answer."""
 
     request: Outstanding = field(default_factory=lambda: Outstanding("", (), {}))
 

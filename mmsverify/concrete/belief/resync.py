@@ -9,8 +9,10 @@ from collections.abc import Iterator, Sequence
 
 from mmsverify.concrete.belief.act import settle, take, update
 from mmsverify.concrete.belief.constraints import Conflict, Constraints
-from mmsverify.concrete.belief.goal import Goal
+from mmsverify.concrete.belief.given import Asked
+from mmsverify.concrete.belief.goal import Goal, doubts
 from mmsverify.concrete.belief.partial import UNSEEN, Key, Partial
+from mmsverify.concrete.belief.ready import Rows
 from mmsverify.concrete.belief.several import distinct
 from mmsverify.concrete.belief.values import Env
 from mmsverify.model.model import ModelData
@@ -42,6 +44,14 @@ def forced(goal: Goal, states: Sequence[Partial], constraints: Constraints) -> l
                 _without_names(after, goal.env, constraints) if isinstance(settled, Conflict) else settled
             )
     return found
+
+
+def as_if_refused(last: Asked, made: Rows, constraints: Constraints) -> list[Partial]:
+    """What holds if a request was refused, as it certainly had to be when it came."""
+    rows = [row for row in last.request.rows if row.answer == MINUS]
+    refusing = Goal(rows, last.request.env, made).ways
+    certain = [(w, s) for w in refusing for states in last.earlier for s in states if doubts(w, s) is None]
+    return [after for ways, state in certain for after in take(ways, state, constraints)[0]]
 
 
 def _without_names(state: Partial, env: Env, constraints: Constraints) -> Partial:
