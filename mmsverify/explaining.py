@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 from mmsverify.audit.replay import FRAMEWORK, SAMPLES, Replay
-from mmsverify.audit.vr import SCAN, Stage
-from mmsverify.errors import InputError, UsageError
+from mmsverify.audit.vr import SCAN, Controller, Stage
+from mmsverify.errors import InputError, MmsverifyError, UsageError
 from mmsverify.formats.mcap import read_trace
 from mmsverify.formats.trace import TraceMessage
 from mmsverify.profiles import from_metadata, load_profile, within_framework
@@ -26,29 +27,44 @@ def explain_sample(
     trace = read_trace(path)
     tables = load_profile(profile) if profile is not None else from_metadata(trace.profile, str(path))
     replay = Replay(trace, within_framework({**load_profile(None), **tables}), FRAMEWORK, variant)
-    last = -1
-    for message in trace:
+    messages = iter(trace)
+    last, findings = -1, []
+    for message in messages:
         last = message.index
         if message.schema_name == SAMPLES:
             controller = replay.controller(message)
-            findings = tuple(controller.sample(message))
-            if message.index == index:
-                return _explanation(trace.path, message, controller.way(), findings)
-        elif message.index == index:
-            raise UsageError(
-                f"message {index} shows no VR cells", place="INDEX", cure="give the index of a sample"
-            )
+            findings = list(controller.sample(message))
+        if last == index:
+            break
+    else:
+        raise _no_such(trace.path, index, last)
+    if message.schema_name != SAMPLES:
+        raise UsageError(
+            f"message {index} shows no VR cells", place="INDEX", cure="give the index of a sample"
+        )
+    way, first = controller.way(), controller.at_first
+    findings += _told_later(replay, controller, messages)
+    found = tuple(finding for finding in findings if finding.index == index)
+    wrong = any(finding.severity == "error" for finding in found)
+    steps = None if wrong or way is None else tuple(map(_step, way))
+    scan, name = message.metadata.get("sampling") == SCAN, message.metadata.get("controller", "")
+    return Explanation(trace.path, index, name, scan, steps, found, first)
+
+
+def _told_later(
+    replay: Replay, controller: Controller, messages: Iterator[TraceMessage]
+) -> Iterator[Finding]:
+    """What the controller's next sample shows to be wrong."""
+    for message in messages:
+        if message.schema_name == SAMPLES and replay.controller(message) is controller:
+            yield from controller.sample(message)
+            return
+
+
+def _no_such(path: str, index: int, last: int) -> MmsverifyError:
     if last < 0:
-        raise InputError("holds no messages", place=trace.path)
-    raise UsageError(f"there is no message {index}", place="INDEX", cure=f"give one of 0 to {last}")
-
-
-def _explanation(
-    path: str, message: TraceMessage, way: tuple[Stage, ...] | None, findings: tuple[Finding, ...]
-) -> Explanation:
-    steps = None if way is None else tuple(map(_step, way))
-    scan = message.metadata.get("sampling") == SCAN
-    return Explanation(path, message.index, message.metadata.get("controller", ""), scan, steps, findings)
+        return InputError("holds no messages", place=path)
+    return UsageError(f"there is no message {index}", place="INDEX", cure=f"give one of 0 to {last}")
 
 
 def _step(stage: Stage) -> PathStep:

@@ -261,6 +261,7 @@ class Explanation:
     """How a sample follows from the one before: the shortest legal way, or findings that say why none exists.
 
     ``way`` is ``None`` where no legal way leads there; its steps hold the variables that the samples show.
+    Of the ``first`` sample of a controller it is empty.
     ``scan``: whether one scan lies between the samples; else any number of them may.
     """
 
@@ -270,3 +271,4 @@ class Explanation:
     scan: bool
     way: tuple[PathStep, ...] | None
     findings: tuple[Finding, ...] = ()
+    first: bool = False

@@ -58,6 +58,19 @@ class Layout:
     date: int | None = None
     milliseconds: int | None = None
 
+    @property
+    def last(self) -> int:
+        """The last column that is read: no row may be shorter, in a table whose columns have names."""
+        return max(self.time, *(at for at, _ in self.cells)) if self.header else -1
+
+    def remarks(self) -> Iterator[str]:
+        """Which column is which cell, and which are not read."""
+        yield ", ".join(f"{self.column(at)} is {name}" for at, name in self.cells)
+        read = {self.time, self.date, self.milliseconds, *(at for at, _ in self.cells)}
+        unread = [self.column(at) for at, name in enumerate(self.header) if at not in read and name]
+        if unread:
+            yield f"not read: {', '.join(unread)}"
+
     def column(self, number: int) -> str:
         """A column as a sentence calls it."""
         known = number < len(self.header) and self.header[number]

@@ -54,12 +54,14 @@ class CsvSamples:
     """The samples of one table, in order of time. Only the line at hand is held.
 
     Times below zero, as an oscilloscope has before its trigger, are moved so that the first is zero. Raises
-    ``InputError`` with file and line for what cannot be read.
+    ``InputError`` with file and line for what cannot be read. ``remarks`` tell how the columns are read, once
+    the iteration has begun.
     """
 
     def __init__(self, path: str | os.PathLike[str], asked: Asked) -> None:
         self.path = os.fspath(path)
         self.asked = asked
+        self.remarks: tuple[str, ...] = ()
 
     def __iter__(self) -> Iterator[CsvSample]:
         with opened(self.path) as lines:
@@ -67,6 +69,7 @@ class CsvSamples:
         if not any(line.strip() for line in begin):
             raise InputError("is empty", place=self.path)
         layout = layout_of(begin, self.asked, self.path)
+        self.remarks = tuple(layout.remarks())
         with opened(self.path) as lines:
             skipped = layout.first_line - 1
             yield from self._samples(layout, islice(lines, skipped, None), skipped)
@@ -109,6 +112,9 @@ class CsvSamples:
         if len(row) > len(layout.header) > 0 and any(text.strip() for text in row[len(layout.header) :]):
             cure = "decimal commas need another delimiter, such as a semicolon"
             raise self._error(line, f"{len(row)} cells under {len(layout.header)} headers", cure)
+        if 0 < len(row) <= layout.last:
+            cure = "it was cut off: complete or delete it"
+            raise self._error(line, f"{len(row)} cells, and {layout.column(layout.last)} is missing", cure)
         text = _at(row, layout.time)
         within: int | None = 0
         if is_time_of_day(text):

@@ -15,13 +15,16 @@ def render(explanation: Explanation) -> str:
 
 def _lines(explanation: Explanation) -> Iterator[str]:
     whose = f" of {printable(explanation.controller)}" if explanation.controller else ""
-    gap = "one scan after" if explanation.scan else "any number of scans after"
-    yield f"{printable(explanation.path)}: sample {explanation.index}{whose}, {gap} the one before"
+    gap = "one scan" if explanation.scan else "any number of scans"
+    when = "the first one" if explanation.first else f"{gap} after the one before"
+    yield f"{printable(explanation.path)}: sample {explanation.index}{whose}, {when}"
     for finding in explanation.findings:
         cited = " ".join((*finding.clauses, *finding.readings))
         yield f"  {finding.severity} {finding.rule}: {printable(finding.message)}  [{cited}]"
     if explanation.way is None:
         yield "no legal way leads to it"
+    elif explanation.first:
+        yield "a recording may begin at any time"
     elif not explanation.way:
         yield "nothing need have happened"
     else:

@@ -33,6 +33,8 @@ class Imported(Protocol):
     def pdus(self) -> Mapping[str, int]: ...
     @property
     def undecoded(self) -> Sequence[Unread]: ...
+    @property
+    def remarks(self) -> Sequence[str]: ...
 
 
 def render_json(inputs: Sequence[Imported]) -> str:
@@ -62,6 +64,7 @@ def _lines(entry: Imported) -> Iterator[str]:
         yield f"{printable(entry.path)}: {counted(entry.pdus['vr'], 'VR sample')}{unread}"
     else:
         yield f"{printable(entry.path)}: {counted(entry.frames, 'frame')}, {taken} PDUs{unread}"
+    yield from (f"  {printable(remark)}" for remark in entry.remarks)
     for fault in entry.undecoded:
         unit = "line" if fault.layer == "csv" else "packet"
         place = f"{unit} {fault.packet}" if fault.packet else "whole file"

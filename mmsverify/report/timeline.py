@@ -10,6 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from typing import Any
+from warnings import catch_warnings, simplefilter
 
 import matplotlib as mpl
 from matplotlib.axes import Axes
@@ -54,7 +55,10 @@ def draw(lines: Sequence[Line], findings: Sequence[Finding]) -> Figure:
 
 def svg(figure: Figure) -> str:
     """The picture as SVG; the same figure gives the same characters."""
-    with mpl.rc_context({"svg.hashsalt": "mmsverify", "svg.fonttype": "none"}):
+    with mpl.rc_context({"svg.hashsalt": "mmsverify", "svg.fonttype": "none"}), catch_warnings():
+        simplefilter(
+            "ignore", UserWarning
+        )  # a font without a name's letters: whoever shows the picture has one
         figure.savefig(text := io.StringIO(), format="svg", metadata={"Date": None, "Creator": "mmsverify"})
     return text.getvalue()
 

@@ -37,6 +37,7 @@ class Read:
     frames: int = 22
     pdus: Mapping[str, int] = field(default_factory=lambda: {"mms": 8, "modbus": 0, "vr": 0})
     undecoded: tuple[Fault, ...] = (Fault(10, "session", "cut\x1b[2J"), Fault(0, "file", "cut off"))
+    remarks: tuple[str, ...] = ()
 
 
 @pytest.fixture

@@ -326,7 +326,7 @@ def test_files_of_one_name_are_two_controllers() -> None:
 def test_the_report_counts_the_samples_and_tells_what_was_not_read(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
-    Path("good.csv").write_text("Time,VR0\n0,1\n1,1\n2,2\n")
+    Path("good.csv").write_text("Time,VR0,Pressure\n0,1,7\n1,1,7\n2,2,8\n")
     Path("bad.csv").write_text("Time,VR0\n0,1\n1,x\n2,2\n")
     assert main(["import", "good.csv", "bad.csv", "-o", "out.mcap", "-q", "--format", "json"]) == 0
     fault = {"packet": 3, "layer": "csv", "reason": "column 2 (VR0): 'x' is no number"}
@@ -340,14 +340,23 @@ def test_the_report_counts_the_samples_and_tells_what_was_not_read(
 
 
 def test_the_report_in_words_tells_samples_and_lines(capsys: pytest.CaptureFixture[str]) -> None:
-    Path("good.csv").write_text("Time,VR0\n0,1\n1,1\n2,2\n")
+    Path("good.csv").write_text("Time,VR0,Pressure\n0,1,7\n1,1,7\n2,2,8\n")
     Path("bad.csv").write_text("Time,VR0\n0,1\n1,x\n2,2\n")
     main(["import", "good.csv", "bad.csv", "-o", "out.mcap", "-q"])
     assert capsys.readouterr().out.splitlines() == [
         "good.csv: 3 VR samples",
+        "  column 2 (VR0) is C_RunMD",
+        "  not read: column 3 (Pressure)",
+        "  any number of scans may lie between two rows (--sampling scan, where every scan is one)",
         "bad.csv: 1 VR sample; 1 undecoded",
         "  line 3  csv  column 2 (VR0): 'x' is no number",
     ]
+
+
+def test_a_row_that_was_cut_off_is_refused_with_its_line(capsys: pytest.CaptureFixture[str]) -> None:
+    Path("cut.csv").write_text("Time;VR0;VR1\n0;1;1\n1;2\n")
+    assert main(["import", "cut.csv", "-o", "out.mcap"]) == 2
+    assert "cut.csv:3: 2 cells, and column 3 (VR1) is missing (it was cut off" in capsys.readouterr().err
 
 
 def test_the_same_table_gives_the_same_octets() -> None:

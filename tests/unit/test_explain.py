@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Literal
 
 import pytest
 
@@ -63,3 +64,49 @@ def test_an_index_beyond_the_recording_is_a_bad_request(
 def test_a_message_of_a_robot_is_a_bad_request(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["explain", str(traces_dir() / "faulty-vmd-stop.mcap"), "3"]) == 2
     assert "message 3 shows no VR cells (give the index of a sample)" in capsys.readouterr().err
+
+
+TABLE = """[[vr-template.commands]]
+number = 110
+name = "open gripper"
+sub_mode = 1
+
+[[vr-template.commands]]
+number = 111
+name = "shut gripper"
+sub_mode = 2
+"""
+
+
+def own(folder: Path, sampling: Literal["scan", "polled"], *cells: dict[str, int]) -> tuple[Path, Path]:
+    """A recording of these samples and the profile of a machine with two commands of its own."""
+    channel = Channel.vr("press", sampling)
+    with TraceWriter(folder / "made.mcap") as trace:
+        for number, held in enumerate(cells):
+            trace.add(1_000_000 * number, channel, json.dumps(held).encode())
+    (folder / "table.toml").write_text(TABLE, encoding="utf-8")
+    return folder / "made.mcap", folder / "table.toml"
+
+
+def test_the_way_obeys_the_command_that_c_submd_shows(tmp_path: Path) -> None:
+    samples = [{"C_RunMD": 1, "CS_RunSTA": 1, "C_SubMD": 0}, {"C_RunMD": 13, "CS_RunSTA": 13, "C_SubMD": 2}]
+    path, table = own(tmp_path, "polled", *samples)
+    way = explain_sample(path, 1, profile=table).way
+    assert way is not None
+    assert [step.action for step in way if step.action != "set_pre_mode"] == ["shut_gripper_111"]
+
+
+def test_a_wrong_c_submd_leaves_no_way(tmp_path: Path) -> None:
+    ready = {"C_RunMD": 1, "CS_RunSTA": 1, "C_SubMD": 0, "C_Cmd": 0}
+    acting = {"C_RunMD": 13, "CS_RunSTA": 13, "C_SubMD": 7, "C_Cmd": 0}
+    path, table = own(
+        tmp_path, "scan", ready, {**ready, "C_Cmd": 110}, {**acting, "CS_RunSTA": 1}, acting, acting
+    )
+    found = explain_sample(path, 2, profile=table)
+    assert [finding.rule for finding in found.findings if finding.severity == "error"] == ["sub-mode.number"]
+    assert found.way is None
+
+
+def test_of_the_first_sample_nothing_is_explained(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["explain", str(polled(tmp_path / "made.mcap", 5)), "0"]) == 0
+    assert "the first one\na recording may begin at any time\n" in capsys.readouterr().out

@@ -69,6 +69,7 @@ class Controller:
         self._two_tables = False
         self._begun = self._commanded = self._went_on = False
         self._last: Segment | None = None
+        self._was: float | None = None
 
     def sample(self, message: TraceMessage) -> Iterator[Finding]:
         """The findings of one sample."""
@@ -80,6 +81,7 @@ class Controller:
         for bad in said.bad:
             yield self._breach(message, "vr.cell", cell=bad.name, found=bad.found)
         self._went_on = bool(self._cells.get(AUTO_ORG))
+        self._was = self._cells.get(SUB_MODE)
         self._cells |= said.cells
         self._commands = self._commands[1], self._cells.get(COMMAND)
         shown: dict[str, frozenset[str]] = {}
@@ -101,8 +103,14 @@ class Controller:
         """
         if self._last is None:
             return ()
-        way = shortest(self._scans, self._last)
+        # C_SubMD may be a sample early or late (VR-20): what fits it goes before what only the mode fits.
+        way = shortest(self._scans, self._last) or shortest(self._scans, replace(self._last, held=None))
         return way if way is None else tuple(map(self._cited, way))
+
+    @property
+    def at_first(self) -> bool:
+        """Whether there was no sample before the last one."""
+        return self._last is None
 
     def _cited(self, stage: Stage) -> Stage:
         """The step with the clauses of its mode alone, where it is SetPreMode."""
@@ -136,8 +144,7 @@ class Controller:
         given = self._given() if message.metadata.get("sampling") == SCAN else None
         reached = self._reached(given)
         agreeing = scans.agreeing(reached, shown)
-        barred = given.barred if given else NOTHING
-        self._last = Segment(self._before(), agreeing, given is not None, barred) if self._begun else None
+        self._last = self._segment(agreeing, given) if self._begun else None
         self._begun = True
         found = None if agreeing else self._violation(message, reached, shown, given)
         if found is not None:
@@ -163,6 +170,14 @@ class Controller:
         self._states = agreeing
         if SUB_MODE in self._cells:
             yield from self._sub_mode(message, shown, given, odd)
+
+    def _segment(self, agreeing: States, given: Given | None) -> Segment:
+        """What lies between the sample before and this one, in which these states agree with it."""
+        barred = given.barred if given else NOTHING
+        held, was = self._cells.get(SUB_MODE), self._was
+        return Segment(
+            self._before(), agreeing, given is not None, barred, held, was, self._numbering.sub_modes
+        )
 
     def _sub_mode(
         self, message: TraceMessage, shown: Mapping[str, frozenset[str]], given: Given | None, odd: bool

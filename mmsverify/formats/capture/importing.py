@@ -26,6 +26,12 @@ from mmsverify.formats.mcap_write import TraceWriter
 from mmsverify.formats.trace import Channel, Role
 from mmsverify.formats.vr import encode
 
+SAMPLING = {
+    "scan": "every scan is a row (--sampling scan)",
+    "polled": "any number of scans may lie between two rows (--sampling scan, where every scan is one)",
+}
+"""What an audit will take the samples for."""
+
 
 @dataclass(frozen=True, slots=True)
 class Undecoded:
@@ -38,12 +44,16 @@ class Undecoded:
 
 @dataclass(frozen=True, slots=True)
 class ImportedInput:
-    """What was found in one capture; the field names are those of the JSON result."""
+    """What was found in one capture; the field names are those of the JSON result.
+
+    ``remarks``: how a table was read, a sentence each.
+    """
 
     path: str
     frames: int
     pdus: Mapping[str, int]
     undecoded: list[Undecoded]
+    remarks: tuple[str, ...] = ()
 
 
 def import_captures(
@@ -117,10 +127,12 @@ class _Table:
 
     def run(self) -> ImportedInput:
         channel = self.controllers.channel(self.path)
-        for sample in CsvSamples(self.path, self.controllers.tables.asked):
+        rows = CsvSamples(self.path, self.controllers.tables.asked)
+        for sample in rows:
             self.writer.add(sample.time, channel, encode(sample.cells))
             self.samples += 1
-        return ImportedInput(os.fspath(self.path), self.samples, _counts(vr=self.samples), [])
+        remarks = (*rows.remarks, SAMPLING[self.controllers.tables.sampling])
+        return ImportedInput(os.fspath(self.path), self.samples, _counts(vr=self.samples), [], remarks)
 
 
 @dataclass(slots=True)
