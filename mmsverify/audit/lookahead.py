@@ -112,8 +112,8 @@ class Lookahead:
                     self._blind[key].append((requests.since or 0, message.index))
 
 
-def link(message: TraceMessage) -> tuple[str, str] | None:
-    """The connection of an MMS link and what happens to it; ``None`` where the message tells of none."""
+def link(message: TraceMessage, wanted: str = "mms") -> tuple[str, str] | None:
+    """The connection of a link and what happens to it; ``None`` where it is none of this role."""
     if message.schema_name != "link.Event":
         return None
     try:
@@ -121,7 +121,7 @@ def link(message: TraceMessage) -> tuple[str, str] | None:
         connection, what, role = event["connection"], event["event"], event["role"]
     except (ValueError, KeyError, TypeError):
         return None
-    return (str(connection), str(what)) if role == "mms" else None
+    return (str(connection), str(what)) if role == wanted else None
 
 
 def _decoded(octets: bytes) -> Iterator[Pdu]:

@@ -11,6 +11,7 @@ from typing import Any
 
 from mmsverify.audit.device import Device
 from mmsverify.audit.lookahead import Lookahead, link
+from mmsverify.audit.modbus import Access, Plan, Server
 from mmsverify.audit.telling import Place
 from mmsverify.audit.vr import Controller, Numbering, Scans
 from mmsverify.concrete.automaton import Automaton
@@ -27,7 +28,7 @@ from mmsverify.model.load import made_for
 from mmsverify.resources import models_dir
 from mmsverify.results import Finding
 
-ROBOT, FRAMEWORK = "mms-robot", "vr-template"
+ROBOT, FRAMEWORK, SIGNALS = "mms-robot", "vr-template", "modbus-signals"
 SAMPLES = "vr.Sample"
 PROVED = "repaired"
 Tables = Mapping[str, Mapping[str, Any]]
@@ -48,6 +49,7 @@ class Replay:
         self.coverage: list[Coverage] = []
         self._devices: dict[str, Device] = {}
         self._controllers: dict[str, Controller] = {}
+        self._servers: dict[str, Server] = {}
         self._ahead = Lookahead(trace)
 
     def run(self) -> Iterator[Finding]:
@@ -60,11 +62,19 @@ class Replay:
             elif message.schema_name == SAMPLES and self._asked in (None, FRAMEWORK):
                 self.events += 1
                 yield from self.controller(message).sample(message)
+            elif message.message_encoding == "modbus-tcp" and self._asked in (None, SIGNALS):
+                self.events += 1
+                yield from self._server(message.metadata.get("controller", "")).message(message)
             elif (happened := link(message)) is not None:
                 self.events += 1
                 yield from self._device(message.metadata.get("name", "")).link(*happened, message)
+            elif (happened := link(message, "modbus")) is not None:
+                self.events += 1
+                yield from self._server(message.metadata.get("name", "")).link(*happened, message)
             else:
                 self.skipped += 1
+        for server in self._servers.values():
+            yield from server.end()
 
     def controller(self, message: TraceMessage) -> Controller:
         """The controller whose sample a message is."""
@@ -73,6 +83,19 @@ class Replay:
             scans, numbering = self._framework
             self._controllers[name] = Controller(Place(self.trace.path, name), scans, numbering)
         return self._controllers[name]
+
+    def _server(self, name: str) -> Server:
+        if name not in self._servers:
+            self._servers[name] = Server(Place(self.trace.path, name), *self._signals)
+        return self._servers[name]
+
+    @cached_property
+    def _signals(self) -> tuple[Access, Plan]:
+        """What the model of the server says of requests, and the plan of signals."""
+        model = load(SIGNALS, models_dir(), self._variant)
+        return Access(model, scope_for(model, {"Socket": 0, "Client": 0}, {})), Plan(
+            self._tables.get(SIGNALS, {})
+        )
 
     @cached_property
     def model(self) -> ModelData:
@@ -124,7 +147,7 @@ class Replay:
 
 
 def _known(model: str | None) -> str | None:
-    if model not in (None, ROBOT, FRAMEWORK):
-        cure = f"use {ROBOT} or {FRAMEWORK}"
+    if model not in (None, ROBOT, FRAMEWORK, SIGNALS):
+        cure = f"use {ROBOT}, {FRAMEWORK} or {SIGNALS}"
         raise UsageError(f"no model {model!r} replays recordings", place="--model", cure=cure)
     return model
