@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mmsverify.samples import annex_a, faults, press, shift
+from mmsverify.samples import annex_a, faults, press, shift, signals
 from mmsverify.samples.recording import Recording
 
 
@@ -36,6 +36,9 @@ SAMPLES: Mapping[str, Sample] = {
     "two-clients.mcap": Sample(faults.two_clients, {"model": "mms-robot", "associations": "multiple"}),
     "press-day.mcap": Sample(press.day, PRESS),
     "faulty-press.mcap": Sample(press.faulty_press, PRESS),
+    "faulty-signals.mcap": Sample(
+        signals.faulty_signals, {"model": "modbus-signals", "dedicated": "[9, 10]"}
+    ),
 }
 
 

@@ -13,7 +13,7 @@ from typing import Any, BinaryIO, Literal
 from mmsverify.formats import vr
 from mmsverify.formats.mcap_write import TraceWriter
 from mmsverify.formats.mms import Pdu, encode
-from mmsverify.formats.trace import Channel, LinkEvent, Sender
+from mmsverify.formats.trace import Channel, LinkEvent, Role, Sender
 from mmsverify.samples import pdus
 
 BEGIN = 1_767_592_800_000_000_000
@@ -34,16 +34,24 @@ class Recording:
         """Nothing is said for a while."""
         self._time += round(seconds * 1000) * MILLISECOND
 
-    def link(self, connection: str, event: LinkEvent) -> None:
+    def link(self, connection: str, event: LinkEvent, role: Role = "mms") -> None:
         """A connection opens, closes, is reset or has a gap."""
-        said = json.dumps({"connection": connection, "event": event, "role": "mms"})
+        said = json.dumps({"connection": connection, "event": event, "role": role})
         self._add(Channel.link(self.vmd), said.encode())
 
     def say(self, association: str, sender: Sender, pdu: Pdu) -> None:
         """One message; a client takes its time before it asks, a robot answers within some milliseconds."""
+        self._takes_time(sender)
+        self._add(Channel.mms(self.vmd, association, sender), encode(pdu))
+
+    def send(self, connection: str, sender: Sender, adu: bytes) -> None:
+        """One Modbus/TCP message."""
+        self._takes_time(sender)
+        self._add(Channel.modbus(self.vmd, connection, sender), adu)
+
+    def _takes_time(self, sender: Sender) -> None:
         count = len(self._messages)
         self._time += (90 + 37 * count % 160 if sender == "client" else 4 + 7 * count % 19) * MILLISECOND
-        self._add(Channel.mms(self.vmd, association, sender), encode(pdu))
 
     def show(self, sampling: Sampling, cells: Mapping[str, float]) -> None:
         """One sample of the VR cells of a controller."""

@@ -51,6 +51,11 @@ FINDINGS: dict[str, list[Told]] = {
         (117, "error", "home.while-running", ("V-CHK-3", "V-CHK-2", "V-DO-01", "V-CMD-01", "V-CTL02-N")),
         (311, "error", "org.unhomed", ("V-SM-5", "V-FUN-2", "V-CHK-2", "V-DO-02", "V-CMD-02", "V-CTL02-N")),
     ],
+    "faulty-signals.mcap": [
+        (13, "error", "access.dedicated", ("M-2.3.2-2", "M-2.3.2-3")),
+        (17, "error", "access.not-inputs", ("M-2.3.1-1", "M-2.3.1-2", "M-2.3.1-3")),
+        (19, "error", "modbus.unasked", ("M-2-S3b", "M-2.2-8", "M-2.2-5")),
+    ],
     "press-day.mcap": [],
     "two-clients.mcap": [(29, "error", "stop.without-control", ("R-7.3.3.4.1-b",))],
 }

@@ -163,8 +163,9 @@ class Server:
     def _wrongly_accepted(
         self, asked: Asked, request: Request, message: TraceMessage, refusal: Conjunct
     ) -> Finding:
-        what = f"{request.quantity} from {request.address}" + (f", {request.amiss}" if request.amiss else "")
-        says = f"{request.function:#04x} is answered by no exception, but {refusal.says}: {what}"
+        what = f"{request.function:#04x}, {request.quantity} from {request.address}"
+        amiss = f" ({request.amiss})" if request.amiss else ""
+        says = f"{what}, is answered by no exception, but {refusal.says}{amiss}"
         return Finding(
             path=self._place.path, vmd=self._place.vmd,
             index=message.index, time=message.time, topic=message.topic,
