@@ -33,11 +33,12 @@ class Plan:
 
     def points(self, request: Request) -> str:
         """What all numbers of a request are, as the model calls it."""
-        first = request.address + self.profile["address_offset"]
-        last = first + max(request.quantity, 1) - 1
+        first, count = request.address, max(request.quantity, 1)
         if request.function not in BITS:
             low, high = self.profile["registers"]
-            return REGISTERS if low <= first and last <= high else BEYOND
+            return REGISTERS if low <= first and first + count - 1 <= high else BEYOND
+        first += self.profile["address_offset"]
+        last = first + count - 1
         for key, word in CLASSES.items():
             low, high = self.profile[key]
             if low <= first and last <= high:

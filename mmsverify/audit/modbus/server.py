@@ -22,12 +22,21 @@ LOCAL_REASONS = frozenset({4, 5, 6, 8, 10, 11})
 
 @dataclass(slots=True)
 class Asked:
-    """A request that waits: its message and what it says. ``passed``: a later one has been answered."""
+    """A request that waits: its message and what it says.
+
+    ``passed``: a later one has been answered. ``lost``: its answer may be missing in the recording.
+    """
 
     message: TraceMessage
     adu: Adu
     request: Request | None
     passed: bool = False
+    lost: bool = False
+
+    @property
+    def overdue(self) -> bool:
+        """Whether its answer should have come."""
+        return self.passed and not self.lost
 
 
 @dataclass(slots=True)
@@ -60,7 +69,8 @@ class Server:
         """A connection opens, closes, is reset, or has a gap: messages may be missing before this point."""
         connection = self._connections.setdefault(name, Connection())
         if event == "gap":
-            connection.asked.clear()
+            for asked in connection.asked.values():
+                asked.lost = True
             connection.blind = True
             return
         yield from self._unanswered(connection)
@@ -81,7 +91,7 @@ class Server:
     def _unanswered(self, connection: Connection) -> Iterator[Finding]:
         """Requests that were passed over. A client may leave before the last answer comes."""
         for transaction, asked in connection.asked.items():
-            if asked.passed and transaction not in self._strays:
+            if asked.overdue and transaction not in self._strays:
                 yield self._found(asked.message, "modbus.unanswered")
 
     # Messages.
@@ -103,7 +113,7 @@ class Server:
             return
         if sender == "client":
             again = connection.asked.pop(adu.transaction, None)  # its first request is not answered any more
-            if again is not None and again.passed:
+            if again is not None and again.overdue:
                 yield self._found(again.message, "modbus.unanswered")
             connection.asked[adu.transaction] = Asked(message, adu, modbus.request(adu))
             return
