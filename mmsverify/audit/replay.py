@@ -70,7 +70,7 @@ class Replay:
                 yield from self._device(message.metadata.get("name", "")).link(*happened, message)
             elif (happened := link(message, "modbus")) is not None:
                 self.events += 1
-                yield from self._server(message.metadata.get("name", "")).link(*happened, message)
+                self._server(message.metadata.get("name", "")).link(*happened, message)
             else:
                 self.skipped += 1
         for server in self._servers.values():

@@ -53,6 +53,12 @@ class Connection:
     excess: TraceMessage | None = None
     asked: dict[int, Asked] = field(default_factory=dict)
 
+    def lose(self) -> None:
+        """Messages are missing."""
+        self.blind = True
+        for asked in self.asked.values():
+            asked.lost = True
+
 
 class Server:
     """The replay of one server's messages."""
@@ -62,18 +68,18 @@ class Server:
         self._connections: dict[str, Connection] = {}
         self._most = plan.profile["max_clients"]
         self._strays: set[int] = set()
+        self._overdue: list[Asked] = []
+        self._overtakes = False
 
     # Connections.
 
-    def link(self, name: str, event: str, message: TraceMessage) -> Iterator[Finding]:
+    def link(self, name: str, event: str, message: TraceMessage) -> None:
         """A connection opens, closes, is reset, or has a gap: messages may be missing before this point."""
         connection = self._connections.setdefault(name, Connection())
         if event == "gap":
-            for asked in connection.asked.values():
-                asked.lost = True
-            connection.blind = True
+            connection.lose()
             return
-        yield from self._unanswered(connection)
+        self._pass_over(connection)
         if event == "open":
             served = sum(
                 other.state == "open" for other in self._connections.values() if other is not connection
@@ -84,15 +90,20 @@ class Server:
             self._connections[name] = Connection("closed" if event == "close" else "reset", blind=False)
 
     def end(self) -> Iterator[Finding]:
-        """The recording ends."""
-        for connection in self._connections.values():
-            yield from self._unanswered(connection)
+        """The recording ends: what was not answered, though a later request was.
 
-    def _unanswered(self, connection: Connection) -> Iterator[Finding]:
-        """Requests that were passed over. A client may leave before the last answer comes."""
-        for transaction, asked in connection.asked.items():
-            if asked.overdue and transaction not in self._strays:
-                yield self._found(asked.message, "modbus.unanswered")
+        The server of the text answers one request after the other. Of one that lets answers overtake each
+        other nothing is told: a client may leave before the last ones come.
+        """
+        for connection in self._connections.values():
+            self._pass_over(connection)
+        if not self._overtakes:
+            overdue = (asked for asked in self._overdue if asked.adu.transaction not in self._strays)
+            yield from (self._found(asked.message, "modbus.unanswered") for asked in overdue)
+
+    def _pass_over(self, connection: Connection) -> None:
+        """The requests of a connection are not answered any more."""
+        self._overdue += [asked for asked in connection.asked.values() if asked.overdue]
 
     # Messages.
 
@@ -108,13 +119,13 @@ class Server:
         try:
             adu = modbus.decode(message.data)
         except DecodeError as error:
-            connection.blind = True  # whatever it was, it may have been a request, or an answer
+            connection.lose()  # whatever it was, it may have been a request, or an answer
             yield self._found(message, "modbus.undecodable", cause=error.cause)
             return
         if sender == "client":
             again = connection.asked.pop(adu.transaction, None)  # its first request is not answered any more
             if again is not None and again.overdue:
-                yield self._found(again.message, "modbus.unanswered")
+                self._overdue.append(again)
             connection.asked[adu.transaction] = Asked(message, adu, modbus.request(adu))
             return
         if connection.excess is not None:
@@ -131,6 +142,7 @@ class Server:
                 yield self._found(message, "modbus.unasked", transaction=adu.transaction)
             return
         connection.blind = False
+        self._overtakes = self._overtakes or asked.passed
         for other in connection.asked.values():
             other.passed = other.passed or other.message.index < asked.message.index
         for breach in self._judged(asked, adu):
