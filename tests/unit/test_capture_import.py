@@ -84,6 +84,7 @@ def test_one_association_gives_its_pdus_between_open_and_close(tmp_path: Path) -
         "frames": 14,
         "pdus": {"mms": 6, "modbus": 0, "vr": 0},
         "undecoded": [],
+        "remarks": (),
     }
 
 

@@ -44,7 +44,7 @@ class Undecoded:
 
 @dataclass(frozen=True, slots=True)
 class ImportedInput:
-    """What was found in one capture; the field names are those of the JSON result.
+    """What was found in one capture; the other field names are those of the JSON result.
 
     ``remarks``: how a table was read, a sentence each.
     """
