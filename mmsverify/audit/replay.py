@@ -14,7 +14,7 @@ from mmsverify.audit.lookahead import Lookahead, link
 from mmsverify.audit.modbus import Access, Plan, Server
 from mmsverify.audit.telling import Place
 from mmsverify.audit.vr import Controller, Numbering, Scans
-from mmsverify.concrete.automaton import Automaton
+from mmsverify.concrete.automaton import Automaton, TooManyStatesError
 from mmsverify.concrete.belief import Belief
 from mmsverify.concrete.belief.coverage import Coverage
 from mmsverify.concrete.belief.partial import OTHER
@@ -109,7 +109,13 @@ class Replay:
         model = made_for(load(FRAMEWORK, models_dir(), self._variant), profile)
         numbering = Numbering(model.options["numbers"], profile.get("sub_action_status", "either"))
         # A recording may begin at any time, and of a controller that kept its homing while it was off.
-        return Scans(Automaton(Machine(model, scope_for(model, {}, {})))), numbering
+        try:
+            automaton = Automaton(Machine(model, scope_for(model, {}, {})))
+        except TooManyStatesError:
+            cause = "too many commands of the user's that change the homing for an audit"
+            cure = "list those that the recording shows"
+            raise ProfileError(cause, place=f"{FRAMEWORK}.commands", cure=cure) from None
+        return Scans(automaton), numbering
 
     def _device(self, vmd: str) -> Device:
         if vmd not in self._devices:

@@ -9,7 +9,7 @@ import typer
 
 from mmsverify.commands.options import Output, Profile, Quiet, Variant
 from mmsverify.commands.output import emit, require_writable
-from mmsverify.report import render_explanation
+from mmsverify.report import EXPLANATION_FORMATS, render_explanation, require_format
 
 
 def explain(
@@ -18,6 +18,7 @@ def explain(
     *,
     profile: Profile = None,
     variant: Variant = "repaired",
+    format: Annotated[str, typer.Option("--format", metavar="text|json")] = "text",
     output: Output = None,
     quiet: Quiet = False,  # noqa: ARG001 (every command takes it; this one has nothing to be quiet about)
 ) -> int:
@@ -25,9 +26,10 @@ def explain(
 
     Exit status: 0 there is a way, 1 there is none, 2 bad request or nothing could be read.
     """
+    require_format(format, EXPLANATION_FORMATS)
     require_writable(output, [trace])
     from mmsverify.explaining import explain_sample
 
     found = explain_sample(trace, index, profile=profile, variant=variant)
-    emit(render_explanation(found), output)
+    emit(render_explanation(found, format), output)
     return int(found.way is None)

@@ -28,8 +28,15 @@ class Edge:
     target: int
 
 
+class TooManyStatesError(Exception):
+    """More states than an explicit automaton is for."""
+
+
 class Automaton:
-    """The reachable states of a machine, numbered in the order in which they are met."""
+    """The reachable states of a machine, numbered in the order in which they are met.
+
+    Raises ``TooManyStatesError`` beyond ``LARGEST``.
+    """
 
     def __init__(self, machine: Machine) -> None:
         self.machine = machine
@@ -44,7 +51,8 @@ class Automaton:
             self._number(state)
         done = 0
         while done < len(self.states):
-            assert done < LARGEST, "too many states for an explicit automaton"
+            if done >= LARGEST:
+                raise TooManyStatesError
             found = self.machine.successors(self.states[done])
             steps = [(self.machine.instances[n].row, after) for n, after in found if after is not None]
             self.edges.append(tuple(Edge(row, self._number(after)) for row, after in steps))

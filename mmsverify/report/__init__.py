@@ -21,6 +21,7 @@ from mmsverify.report import (
     check_text,
     clauses_json,
     clauses_text,
+    explanation_json,
     explanation_text,
     imports,
     survey_json,
@@ -32,6 +33,7 @@ __all__ = [
     "AUDIT_FORMATS",
     "CHECK_FORMATS",
     "CLAUSES_FORMATS",
+    "EXPLANATION_FORMATS",
     "FINDINGS_FORMATS",
     "IMPORT_FORMATS",
     "render_audit",
@@ -61,6 +63,11 @@ CLAUSES_FORMATS: Mapping[str, Callable[..., str]] = {
     "json": clauses_json.render,
 }
 
+EXPLANATION_FORMATS: Mapping[str, Callable[[Explanation], str]] = {
+    "text": explanation_text.render,
+    "json": explanation_json.render,
+}
+
 FINDINGS_FORMATS: Mapping[str, Callable[[Survey], str]] = {
     "text": survey_text.render,
     "json": survey_json.render,
@@ -87,9 +94,9 @@ def render_clauses(registers: Sequence[Register], format: str, *, long: bool = F
     return CLAUSES_FORMATS[require_format(format, CLAUSES_FORMATS)](registers, long=long)
 
 
-def render_explanation(explanation: Explanation) -> str:
-    """How a sample follows from the one before, as text that ends with a line feed."""
-    return explanation_text.render(explanation)
+def render_explanation(explanation: Explanation, format: str) -> str:
+    """How a sample follows from the one before in ``format``, a key of ``EXPLANATION_FORMATS``."""
+    return EXPLANATION_FORMATS[require_format(format, EXPLANATION_FORMATS)](explanation)
 
 
 def render_findings(survey: Survey, format: str) -> str:

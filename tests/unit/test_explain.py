@@ -110,3 +110,10 @@ def test_a_wrong_c_submd_leaves_no_way(tmp_path: Path) -> None:
 def test_of_the_first_sample_nothing_is_explained(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["explain", str(polled(tmp_path / "made.mcap", 5)), "0"]) == 0
     assert "the first one\na recording may begin at any time\n" in capsys.readouterr().out
+
+
+def test_an_explanation_is_told_as_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["explain", str(polled(tmp_path / "made.mcap", 3, 5)), "1", "--format", "json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert (told["schema"], told["sampling"], told["violations"]) == ("mmsverify.explanation/1", "polled", [])
+    assert told["way"][-1]["state"] == {"mode": "OrgRdy", "status": "OrgRdy"}

@@ -16,7 +16,7 @@ from mmsverify.auditing import audit_traces
 from mmsverify.concrete.automaton import Automaton
 from mmsverify.concrete.machine import Machine
 from mmsverify.concrete.scope import scope_for
-from mmsverify.errors import UsageError
+from mmsverify.errors import ProfileError, UsageError
 from mmsverify.formats.mcap_write import TraceWriter
 from mmsverify.formats.trace import Channel, TraceMessage
 from mmsverify.model import load
@@ -311,3 +311,42 @@ def test_where_no_command_is_ever_seen_none_is_needed() -> None:
 def test_a_stop_may_be_told_by_its_flag() -> None:
     running = [*HOMED_BY_COMMAND, *commanded(2, 4), *modes([5]), *commanded(3, 6)]
     assert told(audited([*running, {"CF_Stop": 1, **modes([7])[0]}, *modes([3])])) == []
+
+
+UP_TO_RUN = [
+    (0, 0, 0), (1, 0, 0), (1, 1, 1), (2, 0, 1), (3, 0, 2),
+    (3, 2, 3), (4, 0, 3), (5, 0, 4), (5, 3, 5), (6, 0, 5),
+]  # fmt: skip
+"""A conforming run up to Run: mode, command, status."""
+
+
+def scanned(*rows: tuple[int, int, int], **cells: int) -> list[dict[str, int]]:
+    return [{"C_RunMD": m, "C_Cmd": c, "CS_RunSTA": s, **cells} for m, c, s in (*UP_TO_RUN, *rows)]
+
+
+def test_auto_org_after_a_stop_is_a_warning_for_only_a_reading_forbids_it() -> None:
+    found = audited(scanned((6, 4, 6), (7, 0, 6), (3, 0, 7), (4, 0, 3), CF_AutoOrg=1))
+    assert [(each.index, each.rule, each.severity) for each in found] == [
+        (13, "origin.not-after-home", "warning")
+    ]
+    assert found[0].readings == ("VR-10",)
+
+
+def test_a_stop_may_be_told_by_its_flag_a_sample_before() -> None:
+    stopped = [{**scanned((6, 0, 6))[-1], "CF_Stop": 1}, {**scanned((7, 0, 6))[-1], "CF_Stop": 0}]
+    assert audited([*scanned(), *stopped]) == []
+
+
+def test_a_command_may_be_cleared_a_little_before_the_mode_follows() -> None:
+    run = [(1, 0, 1), (1, 1, 1), (1, 0, 1), (2, 0, 1)]
+    assert audited([{"C_RunMD": m, "C_Cmd": c, "CS_RunSTA": s} for m, c, s in run]) == []
+
+
+def test_a_table_that_is_too_large_for_an_audit_is_a_bad_request(tmp_path: Path) -> None:
+    entry = '[[vr-template.commands]]\nnumber = {n}\nname = "c{n}"\nsub_mode = {n}\nhoming = "homes"\n'
+    numbers = [n for first in (101, 201, 301) for n in range(first, first + 40)]
+    (tmp_path / "large.toml").write_text("\n".join(entry.format(n=n) for n in numbers), encoding="utf-8")
+    with TraceWriter(tmp_path / "made.mcap") as trace:
+        trace.add(0, Channel.vr("press", "scan"), b'{"C_RunMD": 1}')
+    with pytest.raises(ProfileError, match="too many commands"):
+        audit_traces([tmp_path / "made.mcap"], profile=tmp_path / "large.toml", model=None)

@@ -20,17 +20,24 @@ MACHINE = Clause.of("V-CTL02-N")
 STAYS = {"DbgRdy": Clause.of("V-NEXT-01", "V-SM-1"), "HomeRdy": Clause.of("V-NEXT-03b", "V-SM-1"),
          "OrgRdy": Clause.of("V-NEXT-05", "V-SM-1")}  # fmt: skip
 """The waiting modes, which SetNextMode leaves as they are."""
+HOME_RDY, ORG, RUN = "HomeRdy", "Org", "Run"
+PAUSES = frozenset({"V-STA-10", "VR-09"})
+"""What SetPreMode does with a flow that is paused, in Run only."""
 Seen = frozenset[str] | None
 """The commands that the samples show; ``None`` where they show no commands at all."""
 
 
 @dataclass(frozen=True, slots=True)
 class Given:
-    """What was commanded in a scan: the commands seen, what is barred, and the number in C_Cmd if not 0."""
+    """What was commanded in a scan: the commands seen, what is barred, and the number in C_Cmd if not 0.
+
+    ``auto_org``: CF_AutoOrg is set.
+    """
 
     seen: Seen = None
     barred: frozenset[str] = frozenset()
     number: float | None = None
+    auto_org: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,8 +86,9 @@ class Blaming:
         """What SetPreMode does in a mode."""
         (row,) = (row for row in self._rows if row.on.service == PRE)
         its_own = f"V-PRE-{self._mode_numbers.get(mode, 0):02}"
-        kept = (c for c in row.clause.ids if c == its_own or not c.startswith("V-PRE-"))
-        return Clause.of("V-PRE-0", *kept)
+        others = {c for c in row.clause.ids if c.startswith("V-PRE-") and c != its_own}
+        others |= set() if mode == RUN else PAUSES
+        return Clause.of("V-PRE-0", *(c for c in (*row.clause.ids, *row.clause.readings) if c not in others))
 
     @cached_property
     def _mode_numbers(self) -> Mapping[str, int]:
@@ -92,6 +100,9 @@ class Blaming:
         ready = self._scans.ready(states)
         held = " or ".join(self.words(ready, "mode"))
         nexts = self.words(self._scans.once(states, given.barred), "mode")
+        if given.auto_org and held == HOME_RDY and shown == ORG and not given.seen:
+            rule = VR_RULES["origin.not-after-home"]
+            return Blame(rule.id, rule.severity, rule.clause, rule.says, "mode", nexts)
         refused = min(self._refusals(ready, shown, given.seen), key=lambda found: found[0], default=None)
         unasked = self._barred(ready, shown, given.barred)
         if refused is not None and (given.seen or unasked is None):

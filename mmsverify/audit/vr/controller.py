@@ -27,6 +27,8 @@ MODE, STATUS, COMMAND, HOMED = "C_RunMD", "CS_RunSTA", "C_Cmd", "CF_Home"
 CELL_OF = {"mode": MODE, "status": STATUS}
 STOPS, AUTO_ORG, SUB_MODE = "CF_Stop", "CF_AutoOrg", "C_SubMD"
 SCAN = "scan"
+LAG = 3
+"""So many samples a command may stand in C_Cmd before the mode follows: nothing says when it is cleared."""
 FROM_WITHIN = frozenset({"onErrB", "onErrS"})
 """Commands that ScanMIO gives, and that no sample need show."""
 
@@ -60,14 +62,14 @@ class Controller:
         self._states: States = scans.automaton.all
         self._cells: dict[str, float] = {}
         self._told: dict[str, float] = {}
-        self._commands: tuple[float | None, float | None] = (None, None)
+        self._commands: tuple[float | None, ...] = ()
         self._changed: int | None = None
         self._mode: frozenset[str] = frozenset()
         self._wrong_status: float | None = None
         self._lawless: float | None = None
         self._unhomed = False
         self._two_tables = False
-        self._begun = self._commanded = self._went_on = False
+        self._begun = self._commanded = self._went_on = self._stopping = False
         self._last: Segment | None = None
         self._was: float | None = None
 
@@ -80,10 +82,10 @@ class Controller:
             return
         for bad in said.bad:
             yield self._breach(message, "vr.cell", cell=bad.name, found=bad.found)
-        self._went_on = bool(self._cells.get(AUTO_ORG))
+        self._went_on, self._stopping = bool(self._cells.get(AUTO_ORG)), bool(self._cells.get(STOPS))
         self._was = self._cells.get(SUB_MODE)
         self._cells |= said.cells
-        self._commands = self._commands[1], self._cells.get(COMMAND)
+        self._commands = (*self._commands, self._cells.get(COMMAND))[-LAG:]
         shown: dict[str, frozenset[str]] = {}
         yield from self._numbers(message, shown)
         if self._wrong_status is not None and self._wrong_status == self._cells.get(STATUS):
@@ -189,7 +191,9 @@ class Controller:
             return
         breach = self._sub_modes.follow(message, held, shown, self._states, given)
         if breach is not None:
-            yield of_rule(self._place, breach.at or message, VR_RULES[breach.rule], breach)
+            found = of_rule(self._place, breach.at or message, VR_RULES[breach.rule], breach)
+            numbers = str(breach.words["right"]).split(" or ")
+            yield replace(found, expected=tuple(f"{SUB_MODE}={number}" for number in numbers))
 
     def _reached(self, given: Given | None) -> States:
         """The states that may follow; ``given``: what was commanded in the scan, if there was just one."""
@@ -207,7 +211,7 @@ class Controller:
         return self._cells.get(HOMED) == 0 and bool(self._mode) and self._mode <= self._scans.homed_modes
 
     def _given(self) -> Given:
-        """What has been commanded in this scan: what stands in C_Cmd, now or a sample ago.
+        """What has been commanded in this scan: what stands in C_Cmd, or stood there in the last samples.
 
         Where C_Cmd is not recorded, or has held 0 so far, commands may come and go between the samples; but
         an error is not left unseen. Errors are commanded from within.
@@ -219,11 +223,13 @@ class Controller:
         seen = frozenset(known[int(number)] for number in numbers if int(number) in known)
         self._commanded = self._commanded or bool(numbers)
         barred = self._numbering.obeyed if self._commanded else frozenset({RESET})
-        if self._cells.get(STOPS):
+        if self._cells.get(STOPS) or self._stopping:
             barred -= {"stop"}
-        if self._cells.get(AUTO_ORG) == 0 and not self._went_on:
+        goes_on = self._cells.get(AUTO_ORG) or self._went_on
+        if self._cells.get(AUTO_ORG) == 0 and not goes_on:
             barred |= {TO_ORIGIN}
-        return Given(seen, barred - seen, vr.plain(numbers[0]) if numbers else None)
+        number = vr.plain(numbers[-1]) if numbers else None
+        return Given(seen, barred - seen, number, auto_org=bool(goes_on))
 
     # What is told.
 

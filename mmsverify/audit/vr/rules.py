@@ -101,6 +101,14 @@ VR_RULES: Mapping[str, Rule] = {
             expects=("C_SubMD={right}",),
             observed="C_SubMD={found}",
         ),
+        rule(
+            "origin.not-after-home",
+            "CF_AutoOrg leads on to the origin, though Home has not ended just now",
+            "V-NEXT-03a",
+            "V-CTL02-N",
+            "VR-10",
+            severity="warning",
+        ),
         rule("mode.next", "{held} is followed by {shown}", "V-NEXT-N", "V-CTL02-3", "V-CTL02-N"),
     )
 }

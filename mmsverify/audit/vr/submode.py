@@ -117,7 +117,7 @@ class SubModes:
         words = {
             "found": plain(held),
             "before": None if before is None else plain(before),
-            "right": " or C_SubMD=".join(str(plain(n)) for n in sorted(n for n in possible if n is not None)),
+            "right": " or ".join(str(plain(n)) for n in sorted(n for n in possible if n is not None)),
         }
         rule, clause = self._broken(acting, given)
         self._belief = possible

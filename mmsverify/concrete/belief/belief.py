@@ -346,7 +346,7 @@ class Belief:
 
         What is asked for may have been performed already, whatever has happened since.
         """
-        self._unsure |= self._outstanding.keys()
+        self._unsure, self._accepted = self._unsure | self._outstanding.keys(), Asked()
         self.states = sight_lost(self.states, self.constraints)
 
     def drop(self, slot: str) -> None:

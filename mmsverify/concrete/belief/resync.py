@@ -47,7 +47,7 @@ def forced(goal: Goal, states: Sequence[Partial], constraints: Constraints) -> l
 
 
 def as_if_refused(last: Asked, made: Rows, constraints: Constraints) -> list[Partial]:
-    """What holds if a request was refused, as it certainly had to be when it came."""
+    """What holds if a request was refused, in the states in which it certainly had to be when it came."""
     rows = [row for row in last.request.rows if row.answer == MINUS]
     refusing = Goal(rows, last.request.env, made).ways
     certain = [(w, s) for w in refusing for states in last.earlier for s in states if doubts(w, s) is None]
