@@ -9,7 +9,7 @@ from mmsverify.checking.runs import Run
 from mmsverify.faults.partings import Parting, last_parting
 from mmsverify.model import expr as ex
 from mmsverify.model.model import ModelData
-from mmsverify.model.rows import Claim, Clause
+from mmsverify.model.rows import READINGS, Claim, Clause
 from mmsverify.results import Mending
 
 
@@ -42,7 +42,7 @@ class Mended:
     def _mending(self, parting: Parting) -> Mending:
         """The reading of the step where it has one of its own, else that of the declaration."""
         repair = self.model.repairs.get(parting.declared)
-        readings = [r for r in parting.clause.readings if r.startswith(("RP-", "VR-"))]
+        readings = [r for r in parting.clause.readings if r.startswith(READINGS)]
         clauses, because = parting.clause.ids, parting.says
         if repair is not None:
             readings = readings or list(repair.mends.readings)

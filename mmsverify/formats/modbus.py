@@ -14,7 +14,24 @@ from enum import IntEnum
 
 from mmsverify.errors import DecodeError
 
-HEADER = struct.Struct(">HHHB")
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """A field of the MBAP header. ``code`` is its size, as ``struct`` writes it."""
+
+    name: str
+    code: str
+    cites: tuple[str, ...]
+
+
+MBAP = (
+    Field("transaction identifier", "H", ("M-2.2-5", "M-2.2-2")),
+    Field("protocol identifier", "H", ("M-2.2-5", "M-2.2-2")),
+    Field("length", "H", ("M-2.2-5", "M-2.2-2", "M-2.2-6")),
+    # What the unit identifier leads to lies behind the server; the device itself is found by its connection.
+    Field("unit identifier", "B", ("M-2.2-5", "M-2.2-2", "M-2.2-4")),
+)
+HEADER = struct.Struct(">" + "".join(field.code for field in MBAP))
 EXCEPTION = 0x80
 LARGEST_PDU = 253
 ON, OFF = 0xFF00, 0x0000

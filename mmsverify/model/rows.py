@@ -19,12 +19,14 @@ from mmsverify.model.sorts import Sort
 from mmsverify.model.terms import SetOf
 
 Level = Literal["error", "warning"]
+READINGS = ("RP-", "VR-", "MR-")
+"""How the ids of readings begin: one letter pair for each text that is read."""
 PLUS, MINUS, SHOWN = "result(+)", "result(-)", "shown"
 
 
 @dataclass(frozen=True, slots=True)
 class Clause:
-    """A citation: ids of the clause register, and base assumptions (``B-``), readings (``RP-``, ``VR-``)."""
+    """A citation: ids of the clause register, base assumptions (``B-``), readings (``READINGS``)."""
 
     ids: tuple[str, ...]
     readings: tuple[str, ...] = ()
@@ -32,7 +34,7 @@ class Clause:
     @staticmethod
     def of(*cited: str) -> Clause:
         """Sort ids into clauses and readings by their prefix."""
-        readings = tuple(c for c in cited if c.startswith(("B-", "RP-", "VR-")))
+        readings = tuple(c for c in cited if c.startswith(("B-", *READINGS)))
         return Clause(tuple(c for c in cited if c not in readings), readings)
 
     def __add__(self, other: Clause) -> Clause:

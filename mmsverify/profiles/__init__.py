@@ -11,7 +11,7 @@ from mmsverify.profiles.checks import arm_domains
 from mmsverify.profiles.framework import FRAMEWORK_TABLE, within_framework
 from mmsverify.profiles.judging import CHECKS, judge
 from mmsverify.profiles.reading import complete, from_metadata, load_profile, stated
-from mmsverify.profiles.registry import KEYS, ROBOT_TABLE
+from mmsverify.profiles.registry import KEYS, ROBOT_TABLE, SIGNALS_TABLE
 from mmsverify.profiles.shipped import shipped
 
 __all__ = [
@@ -19,6 +19,7 @@ __all__ = [
     "FRAMEWORK_TABLE",
     "KEYS",
     "ROBOT_TABLE",
+    "SIGNALS_TABLE",
     "arm_domains",
     "complete",
     "from_metadata",

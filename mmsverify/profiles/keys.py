@@ -71,19 +71,20 @@ def number(default: int, least: int, *, says: str = "", clauses: tuple[str, ...]
     return Key(default, f"an integer from {least}", lambda v: is_int(v) and v >= least, says, clauses)
 
 
-def integer(default: int, *, says: str = "") -> Key:
+def integer(default: int, *, says: str = "", clauses: tuple[str, ...] = ()) -> Key:
     """Any integer."""
-    return Key(default, "an integer", is_int, says)
+    return Key(default, "an integer", is_int, says, clauses)
 
 
-def span(low: int, high: int, *, says: str = "") -> Key:
-    """The first and the last of a range."""
-    return Key([low, high], "two integers [first, last]", _is_span, says)
+def span(low: int, high: int, most: int, *, says: str = "", clauses: tuple[str, ...] = ()) -> Key:
+    """The first and the last of a range of ``most`` numbers or fewer."""
+    allows = f"two integers [first, last], of {most} numbers at most"
+    return Key([low, high], allows, lambda v: _is_span(v) and v[1] - v[0] < most, says, clauses)
 
 
-def numbers(*, says: str = "") -> Key:
+def numbers(*, says: str = "", clauses: tuple[str, ...] = ()) -> Key:
     """A list of integers."""
-    return Key([], "a list of signal numbers", is_numbers, says)
+    return Key([], "a list of signal numbers", is_numbers, says, clauses)
 
 
 def tables(

@@ -22,7 +22,7 @@ from mmsverify.model.terms import SetOf, Term
 ID = re.compile(r"[A-Z]-[A-Za-z0-9.]+(-[A-Za-z0-9]+)?")
 """An id of a register: the letter of its source, the clause, the number or label within it."""
 
-READING = re.compile(r"(RP|VR)-\d\d|B-[A-Z]+(-[A-Z]+)*")
+READING = re.compile(r"(RP|VR|MR)-\d\d|B-[A-Z]+(-[A-Z]+)*")
 """A reading of the project, or an assumption about the base standard: no statement of a register."""
 
 NAMES = ("rule", "id", "name")

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from mmsverify.audit.replay import FRAMEWORK, ROBOT, Replay
+from mmsverify.audit.replay import FRAMEWORK, ROBOT, SIGNALS, Replay
 from mmsverify.formats.mcap import read_trace
 from mmsverify.profiles import from_metadata, load_profile
 from mmsverify.results import Exercise, Register
@@ -14,7 +14,7 @@ from mmsverify.results import Exercise, Register
 
 def replayed(root: Path, register: Register) -> Iterator[tuple[str, Exercise]]:
     """What the samples of the checkout at ``root`` exercise of a register whose model judges recordings."""
-    if register.model not in (ROBOT, FRAMEWORK):
+    if register.model not in (ROBOT, FRAMEWORK, SIGNALS):
         return
     known = {entry.statement.id for entry in register.entries}
     for path in sorted(root.glob("traces/*.mcap")):

@@ -6,12 +6,14 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from mmsverify.audit.conformance import BASE_CLASS
+from mmsverify.audit.modbus import MODBUS_RULES
 from mmsverify.audit.objects import OBJECTS
 from mmsverify.audit.rules import RULES
 from mmsverify.audit.variables import TYPES, VARIABLES
 from mmsverify.audit.vr import VR_RULES
+from mmsverify.formats.modbus import MBAP
 from mmsverify.formats.vr import CELLS
-from mmsverify.profiles import CHECKS, FRAMEWORK_TABLE, KEYS, ROBOT_TABLE
+from mmsverify.profiles import CHECKS, FRAMEWORK_TABLE, KEYS, ROBOT_TABLE, SIGNALS_TABLE
 from mmsverify.register.citations import Cited, citations
 from mmsverify.register.grammar import of_modules
 from mmsverify.resources import asn1_dir
@@ -27,6 +29,7 @@ TABLES: Mapping[str, tuple[tuple[str, Any], ...]] = {
         ("profile check", CHECKS),
     ),
     "vr-template": (("rule", VR_RULES), ("cell", CELLS), ("profile key", KEYS[FRAMEWORK_TABLE])),
+    SIGNALS_TABLE: (("rule", MODBUS_RULES), ("field", MBAP), ("profile key", KEYS[SIGNALS_TABLE])),
 }
 """By model: what kind of thing each entry of a table is, and the table."""
 

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-CITED = re.compile(r'"((?:(?:RP|VR)-\d\d)|(?:B-[A-Z-]+))"')
+CITED = re.compile(r'"((?:(?:RP|VR|MR)-\d\d)|(?:B-[A-Z-]+))"')
 
 
 def cited() -> list[str]:

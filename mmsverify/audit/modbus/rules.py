@@ -9,7 +9,11 @@ from mmsverify.audit.rule import Rule, rule
 MODBUS_RULES: Mapping[str, Rule] = {
     listed.id: listed
     for listed in (
-        rule("modbus.undecodable", "this is no Modbus/TCP message: {cause}", "M-2.2-2", "M-2.2-5", "M-2.2-7"),
+        rule(
+            "modbus.undecodable",
+            "this is no Modbus/TCP message: {cause}",
+            "M-2.2-2", "M-2.2-5", "M-2.2-6", "M-2.2-7",
+        ),
         rule(
             "modbus.unasked",
             "the server answers transaction {transaction}, and nothing waits for that on this connection",
