@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from mmsverify.audit.replay import FRAMEWORK, SAMPLES
 from mmsverify.auditing import audit_traces
@@ -12,6 +13,8 @@ from mmsverify.formats import vr
 from mmsverify.formats.mcap import read_trace
 from mmsverify.formats.trace import TraceMessage
 from mmsverify.model import load
+from mmsverify.model.load import made_for
+from mmsverify.profiles import from_metadata, load_profile
 from mmsverify.resources import models_dir
 
 if TYPE_CHECKING:
@@ -30,7 +33,7 @@ def timeline_svg(path: Path, *, profile: Path | None = None, variant: str = "rep
         from mmsverify.report import timeline
     except ImportError as error:
         raise UsageError("pictures need matplotlib", cure="pip install 'mmsverify[viz]'") from error
-    lines = _lines(path, timeline.Line)
+    lines = _lines(path, profile, timeline.Line)
     if not lines:
         raise InputError(
             "shows no VR cells", place=str(path), cure="give a recording with samples of a controller"
@@ -39,11 +42,13 @@ def timeline_svg(path: Path, *, profile: Path | None = None, variant: str = "rep
     return timeline.svg(timeline.draw(lines, findings))
 
 
-def _lines(path: Path, line: type[Line]) -> list[Line]:
-    tables = _tables()
+def _lines(path: Path, profile: Path | None, line: type[Line]) -> list[Line]:
+    trace = read_trace(path)
+    given = load_profile(profile) if profile is not None else from_metadata(trace.profile, str(path))
+    tables = _tables({**load_profile(None), **given}[FRAMEWORK])
     order = [*dict.fromkeys((*tables["C_RunMD"].values(), *tables["CS_RunSTA"].values()))]
     found: dict[str, Line] = {}
-    for message in read_trace(path):
+    for message in trace:
         if message.schema_name == SAMPLES:
             name = message.metadata.get("controller", "")
             drawn = found.setdefault(name, line(name, order, begin=message.time))
@@ -52,10 +57,10 @@ def _lines(path: Path, line: type[Line]) -> list[Line]:
     return list(found.values())
 
 
-def _tables() -> dict[str, dict[float, str]]:
-    """The words for the numbers of the three cells that are drawn."""
-    numbers = load(FRAMEWORK, models_dir(), "repaired").options["numbers"]
-    statuses = numbers["status"]("either").items()
+def _tables(profile: Mapping[str, Any]) -> dict[str, dict[float, str]]:
+    """The words for the numbers of the three cells that are drawn, of the machine of a profile."""
+    numbers = made_for(load(FRAMEWORK, models_dir(), "repaired"), profile).options["numbers"]
+    statuses = numbers["status"](profile["sub_action_status"]).items()
     return {
         "C_RunMD": {number: str(word) for number, word in numbers["mode"].items()},
         "CS_RunSTA": {number: " or ".join(dict.fromkeys(map(str, words))) for number, words in statuses},

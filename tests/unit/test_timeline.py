@@ -72,6 +72,11 @@ def test_a_name_can_neither_be_markup_nor_mathematics(tmp_path: Path) -> None:
     assert "<b>$x$<b>" in words(svg)
 
 
+def test_the_commands_of_a_machine_have_their_names(tmp_path: Path) -> None:
+    path = made(tmp_path / "made.mcap", "p", b'{"C_RunMD": 1, "C_Cmd": 101}')
+    assert "jog_ram_101" in words(timeline_svg(path, profile=Path("press")))
+
+
 def test_a_recording_without_vr_cells_is_a_bad_request(capsys: pytest.CaptureFixture[str]) -> None:
     assert main(["timeline", str(traces_dir() / "faulty-vmd-stop.mcap")]) == 2
     assert "shows no VR cells" in capsys.readouterr().err
