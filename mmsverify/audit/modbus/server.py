@@ -44,7 +44,8 @@ class Connection:
     """What is known of one connection.
 
     ``state``: "" where its opening is not in the recording, else "open", or how it ended. ``blind``: requests
-    may be missing, so that an answer may be to one of them.
+    may be missing, so that an answer may be to one of them. ``excess``: it was opened while as many as may be
+    served were open, and has not been answered since.
     """
 
     state: str = ""
@@ -130,8 +131,10 @@ class Server:
             return
         if connection.excess is not None:
             at, connection.excess = connection.excess, None
-            count = sum(other.state == "open" for other in self._connections.values())
-            yield self._found(at, "modbus.too-many", count=count, most=self._most)
+            # Clients are accepted in the order in which they came: it is served once another one has left.
+            count = sum(c.state == "open" and c.excess is None for c in self._connections.values())
+            if count > self._most:
+                yield self._found(at, "modbus.too-many", count=count, most=self._most)
         yield from self._answered(connection, adu, message)
 
     def _answered(self, connection: Connection, adu: Adu, message: TraceMessage) -> Iterator[Finding]:
