@@ -96,3 +96,6 @@ class ServerRepaired(Server):
         "M-2-S4b", "M-2.1-6", "M-2.1-13", "MR-01", on=internal("TCP_CLOSE", s, c),
         when=[works, serves[s, c], ~linked[c]], then=[serves[s, c].becomes(False), heard[c].becomes(False)], repairs=looks_first,
     )  # fmt: skip
+    answers_who_is_there = Step(
+        "M-2.1-8", service_is("TCP_SEND") >> for_all(c)((heard[c] & ~heard[c].next) >> linked[c]), "MR-01",
+        says="SEND is called for a client that is there", repairs=repaired("MR-01", "M-2.1-8", because="stated for the server that looks first"))  # fmt: skip
