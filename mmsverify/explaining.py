@@ -10,7 +10,7 @@ from mmsverify.audit.vr import SCAN, Controller, Stage
 from mmsverify.errors import InputError, MmsverifyError, UsageError
 from mmsverify.formats.mcap import read_trace
 from mmsverify.formats.trace import TraceMessage
-from mmsverify.profiles import from_metadata, load_profile, within_framework
+from mmsverify.profiles import for_recording, within_framework
 from mmsverify.results import Explanation, Finding, PathStep
 
 __all__ = ["explain_sample"]
@@ -25,8 +25,8 @@ def explain_sample(
     such message stands there, or none that shows VR cells.
     """
     trace = read_trace(path)
-    tables = load_profile(profile) if profile is not None else from_metadata(trace.profile, str(path))
-    replay = Replay(trace, within_framework({**load_profile(None), **tables}), FRAMEWORK, variant)
+    tables = for_recording(profile, trace.profile, str(path))
+    replay = Replay(trace, within_framework(tables), FRAMEWORK, variant)
     messages = iter(trace)
     last, findings = -1, []
     for message in messages:

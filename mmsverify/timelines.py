@@ -14,7 +14,7 @@ from mmsverify.formats.mcap import read_trace
 from mmsverify.formats.trace import TraceMessage
 from mmsverify.model import load
 from mmsverify.model.load import made_for
-from mmsverify.profiles import from_metadata, load_profile
+from mmsverify.profiles import for_recording
 from mmsverify.resources import models_dir
 
 if TYPE_CHECKING:
@@ -44,8 +44,7 @@ def timeline_svg(path: Path, *, profile: Path | None = None, variant: str = "rep
 
 def _lines(path: Path, profile: Path | None, line: type[Line]) -> list[Line]:
     trace = read_trace(path)
-    given = load_profile(profile) if profile is not None else from_metadata(trace.profile, str(path))
-    tables = _tables({**load_profile(None), **given}[FRAMEWORK])
+    tables = _tables(for_recording(profile, trace.profile, str(path))[FRAMEWORK])
     order = [*dict.fromkeys((*tables["C_RunMD"].values(), *tables["CS_RunSTA"].values()))]
     found: dict[str, Line] = {}
     for message in trace:

@@ -33,7 +33,8 @@ class Breach:
     """A rule that a message breaks, with the words for its sentence, and the other messages that show it.
 
     ``clause`` is what the thing concerned rests on, where a rule is about many: cited before the rule's own.
-    ``at`` is the message that it is told of, where that is not the one that shows it.
+    ``at`` is the message that it is told of, where that is not the one that shows it. ``expects`` is what
+    would have been legal, where the rule alone does not say it.
     """
 
     rule: str
@@ -41,6 +42,7 @@ class Breach:
     related: tuple[int, ...] = ()
     clause: Clause | None = None
     at: TraceMessage | None = None
+    expects: tuple[str, ...] = ()
 
 
 def rule(

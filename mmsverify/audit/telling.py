@@ -36,7 +36,7 @@ def of_rule(place: Place, message: TraceMessage, rule: Rule, breach: Breach) -> 
         index=message.index, time=message.time, topic=message.topic,
         severity=rule.severity, rule=rule.id, clauses=cited.ids, readings=cited.readings,
         message=rule.says.format(**breach.words),
-        expected=tuple(each.format(**breach.words) for each in rule.expects),
+        expected=breach.expects or tuple(each.format(**breach.words) for each in rule.expects),
         observed=rule.observed.format(**breach.words),
         related=breach.related,
     )  # fmt: skip

@@ -50,7 +50,9 @@ class Function(IntEnum):
     WRITE_MULTIPLE_REGISTERS = 0x10
 
 
-BITS = frozenset({Function.READ_COILS, Function.READ_DISCRETE_INPUTS})
+BITS = frozenset({Function.READ_COILS, Function.READ_DISCRETE_INPUTS, Function.WRITE_SINGLE_COIL,
+                  Function.WRITE_MULTIPLE_COILS})  # fmt: skip
+"""The function codes for signals; the others are for words."""
 SINGLE = frozenset({Function.WRITE_SINGLE_COIL, Function.WRITE_SINGLE_REGISTER})
 MULTIPLE = frozenset({Function.WRITE_MULTIPLE_COILS, Function.WRITE_MULTIPLE_REGISTERS})
 MOST = {
@@ -142,8 +144,7 @@ def _of_many(function: Function, quantity: int, rest: bytes) -> str:
 
 def size(function: Function, quantity: int) -> int:
     """The octets that hold so many points or words."""
-    bits = function in BITS or function is Function.WRITE_MULTIPLE_COILS
-    return (quantity + 7) // 8 if bits else 2 * quantity
+    return (quantity + 7) // 8 if function in BITS else 2 * quantity
 
 
 def unlike(asked: Request, answer: Adu) -> str:

@@ -10,7 +10,7 @@ for finding in judge(table):
 from mmsverify.profiles.checks import arm_domains
 from mmsverify.profiles.framework import FRAMEWORK_TABLE, within_framework
 from mmsverify.profiles.judging import CHECKS, judge
-from mmsverify.profiles.reading import complete, from_metadata, load_profile, stated
+from mmsverify.profiles.reading import complete, for_recording, from_metadata, load_profile, stated
 from mmsverify.profiles.registry import KEYS, ROBOT_TABLE, SIGNALS_TABLE
 from mmsverify.profiles.shipped import shipped
 
@@ -22,6 +22,7 @@ __all__ = [
     "SIGNALS_TABLE",
     "arm_domains",
     "complete",
+    "for_recording",
     "from_metadata",
     "judge",
     "load_profile",

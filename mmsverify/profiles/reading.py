@@ -55,6 +55,14 @@ def from_metadata(metadata: Mapping[str, str], place: str) -> dict[str, dict[str
     return {model: dict(complete({model: keys}, place)[model])}
 
 
+def for_recording(
+    profile: str | Path | None, metadata: Mapping[str, str], place: str
+) -> dict[str, dict[str, Any]]:
+    """The tables that one recording is judged by: the given profile, else what the recording says itself."""
+    tables = load_profile(profile)
+    return tables if profile is not None else {**tables, **from_metadata(metadata, place)}
+
+
 def complete(tables: Mapping[str, Any], place: str) -> dict[str, dict[str, Any]]:
     """The tables checked, with defaults for what they leave out."""
     for table in tables:

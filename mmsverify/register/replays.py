@@ -8,7 +8,7 @@ from pathlib import Path
 
 from mmsverify.audit.replay import FRAMEWORK, ROBOT, SIGNALS, Replay
 from mmsverify.formats.mcap import read_trace
-from mmsverify.profiles import from_metadata, load_profile
+from mmsverify.profiles import for_recording
 from mmsverify.results import Exercise, Register
 
 
@@ -25,7 +25,7 @@ def replayed(root: Path, register: Register) -> Iterator[tuple[str, Exercise]]:
 def exercised(path: Path) -> frozenset[str]:
     """The statements that the rows taken in a replay and its findings cite."""
     trace = read_trace(path)
-    tables = {**load_profile(None), **from_metadata(trace.profile, str(path))}
+    tables = for_recording(None, trace.profile, str(path))
     replay = Replay(trace, tables, None, "repaired")
     cited = {i for finding in replay.run() for i in finding.clauses}
     return frozenset(cited) | {

@@ -56,9 +56,8 @@ def draw(lines: Sequence[Line], findings: Sequence[Finding]) -> Figure:
 def svg(figure: Figure) -> str:
     """The picture as SVG; the same figure gives the same characters."""
     with mpl.rc_context({"svg.hashsalt": "mmsverify", "svg.fonttype": "none"}), catch_warnings():
-        simplefilter(
-            "ignore", UserWarning
-        )  # a font without a name's letters: whoever shows the picture has one
+        # A font without a name's letters: whoever shows the picture has one.
+        simplefilter("ignore", UserWarning)
         figure.savefig(text := io.StringIO(), format="svg", metadata={"Date": None, "Creator": "mmsverify"})
     return text.getvalue()
 

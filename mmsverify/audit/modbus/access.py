@@ -8,19 +8,11 @@ from typing import Any
 
 from mmsverify.concrete.evaluate import Moment, holds
 from mmsverify.concrete.scope import Binding, Scope
-from mmsverify.formats.modbus import Function, Request
+from mmsverify.formats.modbus import BITS, Request
 from mmsverify.model import MINUS, ModelData, Row
 from mmsverify.model.rows import Conjunct
 from mmsverify.model.sorts import Enumeration, EnumSort
 
-BITS = frozenset(
-    {
-        Function.READ_COILS,
-        Function.READ_DISCRETE_INPUTS,
-        Function.WRITE_SINGLE_COIL,
-        Function.WRITE_MULTIPLE_COILS,
-    }
-)
 CLASSES = {"outputs": "external outputs", "inputs": "external inputs", "internals": "internal signals"}
 REGISTERS, DEDICATED, BEYOND = "registers", "dedicated signals", "beyond the numbers of a class"
 

@@ -191,9 +191,7 @@ class Controller:
             return
         breach = self._sub_modes.follow(message, held, shown, self._states, given)
         if breach is not None:
-            found = of_rule(self._place, breach.at or message, VR_RULES[breach.rule], breach)
-            numbers = str(breach.words["right"]).split(" or ")
-            yield replace(found, expected=tuple(f"{SUB_MODE}={number}" for number in numbers))
+            yield of_rule(self._place, breach.at or message, VR_RULES[breach.rule], breach)
 
     def _reached(self, given: Given | None) -> States:
         """The states that may follow; ``given``: what was commanded in the scan, if there was just one."""
@@ -226,7 +224,7 @@ class Controller:
         if self._cells.get(STOPS) or self._stopping:
             barred -= {"stop"}
         goes_on = self._cells.get(AUTO_ORG) or self._went_on
-        if self._cells.get(AUTO_ORG) == 0 and not goes_on:
+        if AUTO_ORG in self._cells and not goes_on:
             barred |= {TO_ORIGIN}
         number = vr.plain(numbers[-1]) if numbers else None
         return Given(seen, barred - seen, number, auto_org=bool(goes_on))

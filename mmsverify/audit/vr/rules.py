@@ -79,7 +79,6 @@ VR_RULES: Mapping[str, Rule] = {
             "V-VR-04",
             "V-CMD02-2c",
             "VR-20",
-            expects=("C_SubMD={right}",),
             observed="C_SubMD={found}",
         ),
         rule(
@@ -88,7 +87,6 @@ VR_RULES: Mapping[str, Rule] = {
             "V-VR-04",
             "V-CMD02-2",
             "VR-20",
-            expects=("C_SubMD={right}",),
             observed="C_SubMD={found}",
         ),
         rule(
@@ -98,7 +96,6 @@ VR_RULES: Mapping[str, Rule] = {
             "V-CMD02-2a",
             "VR-20",
             severity="warning",
-            expects=("C_SubMD={right}",),
             observed="C_SubMD={found}",
         ),
         rule(

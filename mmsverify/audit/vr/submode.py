@@ -114,14 +114,18 @@ class SubModes:
             self.begin(held, states)
             return
         acting = [command for command, reached in begun.items() if reached & states]
+        numbers = [plain(number) for number in sorted(n for n in possible if n is not None)]
         words = {
             "found": plain(held),
             "before": None if before is None else plain(before),
-            "right": " or ".join(str(plain(n)) for n in sorted(n for n in possible if n is not None)),
+            "right": " or ".join(map(str, numbers)),
         }
+        expects = tuple(f"C_SubMD={number}" for number in numbers)
         rule, clause = self._broken(acting, given)
         self._belief = possible
-        self._doubt = Doubt(held, held == before, Breach(rule, words, clause=clause, at=message))
+        self._doubt = Doubt(
+            held, held == before, Breach(rule, words, clause=clause, at=message, expects=expects)
+        )
 
     def _broken(self, acting: list[str], given: Given | None) -> tuple[str, Clause]:
         """The rule and the statements: an action of the wrong number, or a change by no such command."""
