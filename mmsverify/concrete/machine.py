@@ -20,6 +20,7 @@ from mmsverify.concrete.formulas import FALSE, Formulas, Node
 from mmsverify.concrete.ground import Env, Grounding, Instance, settled_facts
 from mmsverify.concrete.initial import Start, initial_states, settled_rigid_cells
 from mmsverify.concrete.layout import Layout
+from mmsverify.concrete.names import free_names
 from mmsverify.concrete.scope import CellKey, Scope
 from mmsverify.model.expr import Cell, Expr, Ref, RowFact, negation, walk
 from mmsverify.model.model import ModelData
@@ -28,10 +29,9 @@ from mmsverify.model.sorts import Sort
 
 
 def speaks_of_steps(claim: Claim) -> bool:
-    """Whether a claim is settled by a step rather than by a state."""
-    return any(
-        isinstance(node, RowFact) or (isinstance(node, Cell) and node.next) for node in walk(claim.formula)
-    )
+    """Whether a claim is settled by a step rather than by a state: one that names a parameter is, too."""
+    of_step = (isinstance(n, RowFact) or (isinstance(n, Cell) and n.next) for n in walk(claim.formula))
+    return any(of_step) or bool(free_names(claim.formula))
 
 
 def event(claim: Claim) -> Expr:

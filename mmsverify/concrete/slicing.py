@@ -41,7 +41,8 @@ def sliced(model: ModelData, claims: Sequence[Claim]) -> ModelData:
     told = {fact for claim in claims for fact in _row_facts(claim.formula)}
     named = frozenset[str]().union(*(free_names(claim.formula) for claim in claims))
     rows = (_sliced_row(row, known, named) for row in model.actions)
-    kept = tuple(row for row in rows if row.assigns or _told_of(row, told))
+    every_step = any(free_names(c.formula) and not _row_facts(c.formula) for c in claims)
+    kept = tuple(row for row in rows if row.assigns or every_step or _told_of(row, told))
     return replace(model, rows=kept, claims=tuple(claims))
 
 

@@ -77,6 +77,16 @@ def test_a_false_claim_is_violated_by_the_shortest_run(lamps: str) -> None:
     assert found.counterexample[-1].state["lit[L1]"] is True
 
 
+def test_a_claim_that_names_a_parameter_is_of_the_steps_that_have_it(tmp_path: Path) -> None:
+    path = tmp_path / "pressed.py"
+    path.write_text(LAMPS + '    pressed_dark = Step("L-13", ~lit[a])\n', encoding="utf-8")
+    found = verdicts(str(path), properties=["pressed-dark"])["pressed-dark"]
+    assert (found.result, found.depth) == ("violated", 2)
+    assert found.counterexample is not None
+    assert found.counterexample[-1].arguments == {"a": "L1"}
+    assert found.counterexample[-2].state["lit[L1]"] is True
+
+
 def test_a_false_claim_about_steps_is_violated_by_a_run_that_ends_in_the_step(lamps: str) -> None:
     found = verdicts(lamps)["knowledge-stays"]
     assert found.counterexample is not None
