@@ -54,6 +54,10 @@ class Calls(Vocabulary):
     )
     freed_when_left = Step("M-2-S4b", for_all(s, c)(freed >> (service_is("TCP_CLOSE") & ~linked[c])), "M-2.1-13",
                            says="a connection socket is freed by CLOSE, when its client has left")  # fmt: skip
+    upon_its_own_socket = Step("M-2.1-12", service_is("TCP_RECV", "TCP_SEND", "TCP_CLOSE") >> serves[s, c], "M-2.1-8",
+                               says="RECV, SEND and CLOSE are called upon the connection socket of their client")  # fmt: skip
+    comes_again_when_freed = Step("M-2.1-13", for_all(c)(comes >> ~served[c]),
+                                  says="a client comes again only once its socket has been closed")  # fmt: skip
     connect_comes = Step("M-2.1-3", service_is("connect") >> for_some(c)(comes), says="a client connects")
     disconnect_leaves = Step(
         "M-2-S4b", service_is("disconnect") >> for_some(c)(leaves), says="a client leaves"
