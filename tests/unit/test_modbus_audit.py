@@ -8,7 +8,7 @@ import struct
 from pathlib import Path
 
 import pytest
-from modbus_line import Line, accepted, adu, opened
+from modbus_line import COILS, DEDICATED, INPUTS, REFUSED, UNSOUND, WORDS, Line, accepted, adu, opened
 
 from mmsverify.audit.modbus import MODBUS_RULES
 from mmsverify.auditing import audit_traces
@@ -104,30 +104,12 @@ def test_every_rule_has_been_broken_here() -> None:
 
 # Each refusing step of the model.
 
-REFUSED = [
-    (0x01, 961, "access.beyond", "M-2.3-3"),
-    (0x01, 956, "access.beyond", "M-2.3.2-1"),
-    (0x02, 1957, "access.beyond", "M-2.3.2-3"),
-    (0x03, 1023, "access.beyond", "M-2.3-3"),
-    (0x05, 0, "access.beyond", "M-2.3.2-3"),
-    (0x10, 1024, "access.beyond", "M-2.3-3"),
-    (0x02, 1, "access.not-inputs", "M-2.3.1-2"),
-    (0x02, 2001, "access.not-inputs", "M-2.3.1-3"),
-    (0x02, 9, "access.not-inputs", "M-2.3.1-1"),
-    (0x01, 1001, "access.not-coils", "M-2.3.1-4"),
-    (0x05, 1001, "access.not-coils", "M-2.3.1-1"),
-    (0x0F, 1001, "access.not-coils", "M-2.3.1-4"),
-    (0x05, 10, "access.dedicated", "M-2.3.2-2"),
-    (0x0F, 3, "access.dedicated", "M-2.3.2-3"),
-    (0x0F, 2003, "access.dedicated", "M-2.3.2-2"),
-]
-
 
 @pytest.mark.parametrize(("function", "address", "rule", "clause"), REFUSED)
 def test_what_must_be_refused_may_not_be_accepted(
     function: int, address: int, rule: str, clause: str
 ) -> None:
-    line = accepted(function, address, dedicated=[10, 2010])
+    line = accepted(function, address, dedicated=DEDICATED)
     assert line.told() == [(2, rule)]
     assert clause in line.found[0].clauses
     assert (line.found[0].severity, line.found[0].related) == ("error", (1,))
@@ -135,20 +117,10 @@ def test_what_must_be_refused_may_not_be_accepted(
 
 @pytest.mark.parametrize(("function", "address"), [case[:2] for case in REFUSED])
 def test_what_must_be_refused_may_be_refused(function: int, address: int) -> None:
-    assert opened(dedicated=[10, 2010]).asks(1, function, address).refuses(1, function).told() == []
+    assert opened(dedicated=DEDICATED).asks(1, function, address).refuses(1, function).told() == []
 
 
-@pytest.mark.parametrize(
-    ("function", "address", "word", "rest", "data"),
-    [
-        (0x01, 1, 0, b"", b"\x00"),
-        (0x01, 1, 2001, b"", b"\xfb" + bytes(251)),
-        (0x02, 1001, 8, b"\x00", b"\x01\x05"),
-        (0x05, 1, 0x00FF, b"", b"\x00\x01\x00\xff"),
-        (0x0F, 1, 8, b"\x02\x05", b"\x00\x01\x00\x08"),
-        (0x10, 0, 2, b"\x02\x00\x01", b"\x00\x00\x00\x02"),
-    ],
-)
+@pytest.mark.parametrize(("function", "address", "word", "rest", "data"), UNSOUND)
 def test_a_request_with_data_that_it_cannot_have_may_not_be_accepted(
     function: int, address: int, word: int, rest: bytes, data: bytes
 ) -> None:
@@ -170,21 +142,19 @@ def test_every_refusing_step_of_the_model_has_been_broken_here() -> None:
 # What conforms.
 
 
-@pytest.mark.parametrize("function", [0x01, 0x05, 0x0F])
-@pytest.mark.parametrize("address", [1, 953, 2001, 2953])
+@pytest.mark.parametrize(("function", "address"), COILS)
 @pytest.mark.exercises("M-2.3.1-4", "M-2.2-8")
 def test_coils_are_the_outputs_and_the_internal_signals(function: int, address: int) -> None:
     assert accepted(function, address).told() == []
 
 
-@pytest.mark.parametrize("address", [1001, 1953])
+@pytest.mark.parametrize(("function", "address"), INPUTS)
 @pytest.mark.exercises("M-2.3.1-1")
-def test_discrete_inputs_are_the_external_inputs(address: int) -> None:
-    assert accepted(0x02, address).told() == []
+def test_discrete_inputs_are_the_external_inputs(function: int, address: int) -> None:
+    assert accepted(function, address).told() == []
 
 
-@pytest.mark.parametrize("function", [0x03, 0x04, 0x06, 0x10])
-@pytest.mark.parametrize("address", [0, 1022])
+@pytest.mark.parametrize(("function", "address"), WORDS)
 @pytest.mark.exercises("M-2.3-7")
 def test_words_are_the_registers_of_the_plan(function: int, address: int) -> None:
     assert accepted(function, address).told() == []
