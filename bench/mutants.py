@@ -2,11 +2,11 @@
 
     python bench/mutants.py [--model NAME ...] [--write] [--every N] [--kept FILE]
 
-Without ``--model`` the robot's; the VR framework has two, vr-template and vr-tasks. One line is printed for
-each mutant that nothing kills. ``--write`` writes the page in docs and the table that it is made from;
-``--every N`` takes only each N-th mutant; ``--kept FILE`` keeps what becomes of each, and judges only those
-anew that were alive: for a run that goes on, or one with more recordings or rules. Two processes share the
-work; the clock depends on the machine, the result does not.
+Without ``--model`` the robot's; the VR framework has two, vr-template and vr-tasks, the server of signals
+one, modbus-signals. One line is printed for each mutant that nothing kills. ``--write`` writes the page in
+docs and the table that it is made from; ``--every N`` takes only each N-th mutant; ``--kept FILE`` keeps
+what becomes of each, and judges only those anew that were alive: for a run that goes on, or one with more
+recordings or rules. Two processes share the work; the clock depends on the machine, the result does not.
 """
 
 from __future__ import annotations

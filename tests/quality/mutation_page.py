@@ -11,8 +11,8 @@ Reason = Callable[[Fate], str]
 
 
 def share(part: int, whole: int) -> str:
-    """A share in percent, rounded down: a score is never told better than it is."""
-    return f"{1000 * part // whole / 10 if whole else 0:.1f} %"
+    """A share in percent, rounded down: a score is never told better than it is. Of nothing there is none."""
+    return f"{1000 * part // whole / 10:.1f} %" if whole else "-"
 
 
 def count(fates: Sequence[Fate], *kinds: str) -> int:

@@ -8,13 +8,17 @@ from pathlib import Path
 
 import robot_page
 import robot_score
-import vr_page
-import vr_score
+from modbus_shelf import SIGNALS
 from mutation_fate import Any_Mutant, Fate, Score
 from mutation_table import HERE, ROBOT, read
+from small_page import PAGES, Page
+from small_score import SmallScore, numbered_mutants
+from vr_shelf import TASKS, TEMPLATE
 
 DOCS = HERE.parents[1] / "docs"
-VR_TABLES = {name: HERE / f"mutants-{name}.tsv" for name in (vr_score.TEMPLATE, vr_score.TASKS)}
+TABLES = {name: HERE / f"mutants-{name}.tsv" for page in PAGES for name in page.models}
+"""Those of the small models."""
+SMALL = {small.name: small for small in (TEMPLATE, TASKS, SIGNALS)}
 
 
 @dataclass(frozen=True)
@@ -32,19 +36,20 @@ class Subject:
     page: Callable[[], str]
 
 
-def vr_text() -> str:
-    """The page about both VR models; one that was never judged is a model without mutants."""
-    return vr_page.page({name: read(table) if table.exists() else [] for name, table in VR_TABLES.items()})
+def text(page: Page) -> str:
+    """A page about small models; one that was never judged is a model without mutants."""
+    tables = {name: TABLES[name] for name in page.models}
+    return page.text({name: read(table) if table.exists() else [] for name, table in tables.items()})
 
 
-def _vr(name: str) -> Subject:
+def _small(name: str, page: Page) -> Subject:
     return Subject(
-        mutants=lambda: vr_score.numbered_mutants(name),
-        score=lambda _: vr_score.VrScore(name, alone=True),
-        table=VR_TABLES[name],
-        written=DOCS / "mutation-vr.md",
-        shown=lambda fates: vr_page.section(name, fates),
-        page=vr_text,
+        mutants=lambda: numbered_mutants(name),
+        score=lambda _: SmallScore(SMALL[name], alone=True),
+        table=TABLES[name],
+        written=DOCS / page.file,
+        shown=lambda fates: page.section(name, fates),
+        page=lambda: text(page),
     )
 
 
@@ -58,6 +63,6 @@ SUBJECTS = {
         shown=robot_page.page,
         page=lambda: robot_page.page(read(ROBOT)),
     ),
-    **{name: _vr(name) for name in VR_TABLES},
+    **{name: _small(name, page) for page in PAGES for name in page.models},
 }
 """By the model's name."""

@@ -1,12 +1,14 @@
-"""A controller that keeps the rules is never blamed: random runs from the rows, scan by scan and polled."""
+"""A controller that keeps the rules is never blamed: random runs from the rows, and runs written by hand."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 import pytest
+from vr_by_hand import UNASKED, lawful
 from vr_random import Run, framework
 from vr_runs import KINDS, Sampling, blamed, recording
+from vr_story import findings, marked
 
 LONG = 2000
 FEW, MANY = 4, 20
@@ -43,3 +45,17 @@ def test_a_run_lags_leaves_cells_out_and_holds_floats(tmp_path: Path) -> None:
     assert any(isinstance(cells.get("C_RunMD"), float) for cells in told)
     polled = recording(1, LONG, "polled", tmp_path / "made.mcap")
     assert len(polled) < len(told)
+
+
+# Runs written by hand.
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("story", lawful())
+def test_a_right_run_written_by_hand_is_not_blamed(story: str, kind: Sampling) -> None:
+    assert findings(story, kind) == []
+
+
+@pytest.mark.parametrize("story", UNASKED.strip().splitlines())
+def test_an_unasked_way_to_the_origin_is_blamed(story: str) -> None:
+    assert [found.index for found in findings(story, "scan")] == marked(story)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from pathlib import Path
 
+from small_score import Small
 from vr_by_hand import lawful, wrong
 from vr_random import BEGIN, NAME, SCAN, framework
 from vr_runs import KINDS
@@ -91,3 +92,9 @@ def telling(model: ModelData) -> str:
     """The first recording that a changed model judges otherwise; empty if none does."""
     changed = scans_of(model)
     return next((each.name for each in recordings() if each.judged(changed) != each.found), "")
+
+
+TEMPLATE = Small("vr-template", untold=frozenset({"cuts_in"}), telling=telling)
+"""The framework. ``cuts_in``: whether an action is cut short by way of an inserted mode; no cell says so."""
+TASKS = Small("vr-tasks")
+"""Its two tasks: what a recording shows is not split into their steps."""
