@@ -21,6 +21,7 @@ from mmsverify.commands.diagram import diagram
 from mmsverify.commands.explain import explain
 from mmsverify.commands.findings import findings
 from mmsverify.commands.imports import import_
+from mmsverify.commands.record import record
 from mmsverify.commands.timeline import timeline
 from mmsverify.errors import MmsverifyError
 from mmsverify.report.wording import printable
@@ -45,6 +46,7 @@ app.command("check")(check)
 app.command("audit")(audit)
 app.command("explain")(explain)
 app.command("import")(import_)
+app.add_typer(record, name="record")
 app.command("diagram")(diagram)
 app.command("timeline")(timeline)
 app.command("clauses")(clauses)

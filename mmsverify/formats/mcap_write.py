@@ -55,6 +55,10 @@ class TraceWriter:
         """Add a metadata record of any name."""
         self._writer.add_metadata(name, dict(pairs))
 
+    def flush(self) -> None:
+        """Hand all that was added to the operating system: a reader of the unfinished file finds it."""
+        self._writer.flush()  # type: ignore[no-untyped-call]
+
     def close(self) -> None:
         """Write indexes and summary; close the file if this writer opened it."""
         self._writer.finish()  # type: ignore[no-untyped-call]

@@ -24,6 +24,7 @@ from mmsverify.report import (
     explanation_json,
     explanation_text,
     imports,
+    recording,
     survey_json,
     survey_text,
 )
@@ -36,12 +37,14 @@ __all__ = [
     "EXPLANATION_FORMATS",
     "FINDINGS_FORMATS",
     "IMPORT_FORMATS",
+    "RECORD_FORMATS",
     "render_audit",
     "render_check",
     "render_clauses",
     "render_explanation",
     "render_findings",
     "render_import",
+    "render_recording",
     "require_format",
 ]
 
@@ -78,6 +81,11 @@ IMPORT_FORMATS: Mapping[str, Callable[[Sequence[imports.Imported]], str]] = {
     "json": imports.render_json,
 }
 
+RECORD_FORMATS: Mapping[str, Callable[[str, recording.Recording], str]] = {
+    "text": recording.render_text,
+    "json": recording.render_json,
+}
+
 
 def render_audit(audit: Audit, format: str) -> str:
     """The audit in ``format``, a key of ``AUDIT_FORMATS``; the text ends with a line feed."""
@@ -107,6 +115,11 @@ def render_findings(survey: Survey, format: str) -> str:
 def render_import(inputs: Sequence[imports.Imported], format: str) -> str:
     """What an import read in ``format``, a key of ``IMPORT_FORMATS``; the text ends with a line feed."""
     return IMPORT_FORMATS[require_format(format, IMPORT_FORMATS)](inputs)
+
+
+def render_recording(path: str, recorded: recording.Recording, format: str) -> str:
+    """What the recording at ``path`` holds in ``format``, a key of ``RECORD_FORMATS``."""
+    return RECORD_FORMATS[require_format(format, RECORD_FORMATS)](path, recorded)
 
 
 def require_format(format: str, known: Mapping[str, object] | Sequence[str]) -> str:

@@ -140,9 +140,15 @@ class Conversation:
         self.writer.add(max(time, 1), channel, data)  # viewers refuse a recording that has a time 0
 
 
-def reader(role: Role, connection: Connection) -> Reader:
-    """A reader for a connection of this role."""
-    return Association(aligned=connection.opener is not None) if role == "mms" else ModbusConnection()
+def reader(role: Role, *, aligned: bool) -> Reader:
+    """A reader for a connection of this role; ``aligned``: its first octets will be there."""
+    return Association(aligned=aligned) if role == "mms" else ModbusConnection()
+
+
+def channels(role: Role, host: str, name: str) -> dict[Sender, Channel]:
+    """Where the messages of both sides of a connection stand in a trace."""
+    kind = Channel.mms if role == "mms" else Channel.modbus
+    return {"client": kind(host, name, "client"), "server": kind(host, name, "server")}
 
 
 def looks_like_mms(data: bytes) -> bool:

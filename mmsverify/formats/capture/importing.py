@@ -13,6 +13,7 @@ from mmsverify.formats.capture.conversation import (
     Conversation,
     Names,
     Ports,
+    channels,
     looks_like_mms,
     reader,
     server_of,
@@ -217,14 +218,13 @@ class _Import:
     def _begin(self, connection: Connection, role: Role, first: Happening) -> Conversation:
         server = server_of(connection, self.ports.of(role), first)
         host, name = self.names.host(server, role), self.names.connection(role)
-        kind = Channel.mms if role == "mms" else Channel.modbus
         return Conversation(
             role=role,
             server=server,
             name=name,
-            reader=reader(role, connection),
+            reader=reader(role, aligned=connection.opener is not None),
             link=Channel.link(host),
-            channels={"client": kind(host, name, "client"), "server": kind(host, name, "server")},
+            channels=channels(role, host, name),
             writer=self.writer,
             report=self._report,
         )
