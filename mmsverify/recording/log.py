@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import time
 from collections import Counter
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import Literal
 
 from mmsverify.formats.capture.conversation import Conversation, Names, channels, reader
@@ -98,9 +98,8 @@ class Log:
 
     def sample(self, channel: Channel, cells: Mapping[str, Number]) -> None:
         """The VR cells of a controller as they are now."""
-        with self.guarded():
-            self.writer.add(self._clock.now(), channel, encode(cells))
-            self._samples += 1
+        self.attempt(lambda: self.writer.add(self._clock.now(), channel, encode(cells)))
+        self._samples += not self.broken
 
     def note(self, connection: str, fault: Fault) -> None:
         """Count something that could not be read."""
@@ -116,17 +115,14 @@ class Log:
 
     def flush(self) -> None:
         """Make what was recorded readable."""
-        with self.guarded():
-            self.writer.flush()
+        self.attempt(self.writer.flush)
 
     def end(self) -> Recorded:
         """No more will come: what is left over of any message is told."""
         for live in list(self._live):
-            with self.guarded():
-                live.talk.finish(0, self._clock.now())
+            self.attempt(partial(live.talk.finish, 0, self._clock.now()))
             self.forget(live)
-        with self.guarded():
-            self.writer.close()
+        self.attempt(self.writer.close)
         counts = {"mms": self._ended["mms"], "modbus": self._ended["modbus"], "vr": self._samples}
         undecoded = [Unread(*place, count) for place, count in self._unread.items()]
         return Recorded(self._connections, counts, self.refused, undecoded, self.broken)
@@ -135,13 +131,12 @@ class Log:
         """The time now, in ns since 1970; it never goes back."""
         return self._clock.now()
 
-    @contextmanager
-    def guarded(self) -> Iterator[None]:
+    def attempt(self, write: Callable[[], object]) -> None:
         """Write, unless that has failed before; a failure ends the recording and not the caller."""
         if self.broken:
             return
         try:
-            yield
+            write()
         except OSError as error:
             self.broken = error.strerror or str(error)
 
@@ -176,11 +171,9 @@ class Live:
     ) -> None:
         """Write down what happens on the connection."""
         source = self.talk.server if sender == "server" else self.client
-        with self.log.guarded():
-            try:
-                self.talk.take(Happening(kind, 0, self.log.now(), source, octets))
-            except OSError:
-                raise
-            except Exception as error:  # a fault of our readers must not cost a plant its connection
-                self.log.note(self.talk.name, Fault("recording", f"{type(error).__name__}: {error}"))
-                self.talk.take(Happening("gap", 0, self.log.now(), source))
+        happening = Happening(kind, 0, self.log.now(), source, octets)
+        try:
+            self.log.attempt(lambda: self.talk.take(happening))
+        except Exception as error:  # a fault of our readers must not cost a plant its connection
+            self.log.note(self.talk.name, Fault("recording", f"{type(error).__name__}: {error}"))
+            self.log.attempt(lambda: self.talk.take(replace(happening, kind="gap", data=b"")))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import asyncio
+import errno
+import io
 import os
 import random
 import signal
@@ -12,13 +14,16 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import Any
 
 import pytest
 from capture_wire import CC, CR, STATUS, STATUS_ANSWER, dt
 from wire import HOST, relaying, rows, serving
 
 from mmsverify.cli import main
-from mmsverify.formats.mcap import read_trace
+from mmsverify.formats.capture.link import Endpoint
+from mmsverify.formats.mcap import TraceWriter, read_trace
+from mmsverify.recording import Log
 
 ASKED = bytes.fromhex("000100000006010100000008")
 ANSWERED = bytes.fromhex("000100000004010101ff")
@@ -301,3 +306,43 @@ def test_a_recording_is_never_overwritten(tmp_path: Path, capsys: pytest.Capture
     arguments = ["--listen", f"{HOST}:0", "--to", HOST, "--protocol", "mms", "-o", str(output)]
     assert "exists already" in refused(capsys, "proxy", *arguments)
     assert output.read_bytes() == b"precious"
+
+
+class Full(io.BytesIO):
+    """A disk on which nothing fits any more after the first ``room`` octets."""
+
+    room = 400
+
+    def write(self, octets: Any, /) -> int:
+        if self.tell() + len(octets) > self.room:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        return super().write(octets)
+
+
+def test_a_full_disk_ends_the_recording_and_not_the_traffic() -> None:
+    log = Log(TraceWriter(Full(), compress=False))
+    live = log.connection("modbus", Endpoint("client", 1), Endpoint("server", 2))
+    for _ in range(100):
+        live.data("client", ASKED)
+        log.flush()
+    live.end("close")
+    recorded = log.end()
+    assert recorded.broken == "No space left on device"
+    assert 0 < recorded.pdus["modbus"] < 100
+
+
+def test_a_fault_of_a_reader_is_told_and_stops_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails(*_: object) -> list[bytes]:
+        raise ZeroDivisionError("never so")
+
+    log = Log(TraceWriter(io.BytesIO()))
+    live = log.connection("modbus", Endpoint("client", 1), Endpoint("server", 2))
+    monkeypatch.setattr(live.talk.reader, "feed", fails)
+    live.data("client", ASKED)
+    monkeypatch.undo()
+    live.data("client", ASKED)
+    recorded = log.end()
+    assert [(each.layer, each.reason) for each in recorded.undecoded] == [
+        ("recording", "ZeroDivisionError: never so")
+    ]
+    assert recorded.pdus["modbus"] == 1
