@@ -9,7 +9,7 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Literal
 
@@ -176,4 +176,4 @@ class Live:
             self.log.attempt(lambda: self.talk.take(happening))
         except Exception as error:  # a fault of our readers must not cost a plant its connection
             self.log.note(self.talk.name, Fault("recording", f"{type(error).__name__}: {error}"))
-            self.log.attempt(lambda: self.talk.take(replace(happening, kind="gap", data=b"")))
+            self.log.attempt(lambda: self.talk.take(happening._replace(kind="gap", data=b"")))

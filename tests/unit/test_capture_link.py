@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import struct
+from collections.abc import Callable
 
 import pytest
 from capture_wire import ACK, SYN, Talk, ethernet
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from mmsverify.formats.capture import link
 from mmsverify.formats.capture.faults import UnreadableError
-from mmsverify.formats.capture.link import LINKS, Endpoint, segment_of
+from mmsverify.formats.capture.link import LINKS, Endpoint, Segment, segment_of
 from mmsverify.formats.capture.packets import Packet
 
 V4 = Talk().packet("client", b"hello", seq=77)
@@ -84,8 +86,8 @@ def test_other_frames_are_no_segments() -> None:
     arp = bytes(12) + b"\x08\x06" + bytes(28)
     udp = bytes([*V4[:9], 17, *V4[10:]])
     fragment = bytes([*V4[:6], 0, 5, *V4[8:]])
-    for link, data in ((1, arp), (1, ethernet(udp)), (101, fragment), (101, b""), (147, V4)):
-        assert segment_of(Packet(1, 0, link, data)) is None
+    for kind, data in ((1, arp), (1, ethernet(udp)), (101, fragment), (101, b""), (147, V4)):
+        assert segment_of(Packet(1, 0, kind, data)) is None
 
 
 def test_ip_that_promises_tcp_and_holds_none_is_unreadable() -> None:
@@ -93,12 +95,48 @@ def test_ip_that_promises_tcp_and_holds_none_is_unreadable() -> None:
         segment_of(Packet(1, 0, 101, V4[:30]))
 
 
+def read(way: Callable[[Packet], Segment | None], data: bytes) -> Segment | str | None:
+    try:
+        return way(Packet(1, 0, 1, data))
+    except UnreadableError as error:
+        return error.fault.reason
+
+
+OPTIONS = bytes.fromhex("01010402")
+
+
+@settings(max_examples=500, deadline=None)
+@given(
+    st.binary(max_size=30),
+    st.booleans(),
+    st.integers(0, 12),
+    st.lists(st.tuples(st.integers(12, 70), st.integers(0, 255)), max_size=3),
+    st.integers(0, 100),
+)
+def test_the_short_way_reads_what_dpkt_reads(
+    said: bytes, options: bool, padding: int, changes: list[tuple[int, int]], kept: int
+) -> None:
+    packet = bytearray(Talk().packet("client", (OPTIONS if options else b"") + said, seq=77))
+    if options:
+        packet[32] = 0x60  # one more word in TCP's head
+    frame = bytearray(ethernet(bytes(packet)) + bytes(padding))
+    for at, octet in changes:
+        frame[at % len(frame)] = octet
+    cut = bytes(frame[: max(0, len(frame) - kept)] if kept < 20 else frame)
+    short = read(link._usual, cut)
+    assert short is None or short == read(link._any, cut)
+
+
+def test_the_short_way_is_taken() -> None:
+    assert link._usual(Packet(1, 0, 1, ethernet(V4))) == link._any(Packet(1, 0, 1, ethernet(V4)))
+
+
 @settings(max_examples=300, deadline=None)
 @given(st.sampled_from(sorted(LINKS)), st.binary(max_size=120), st.integers(0, 60))
-def test_hostile_octets_never_crash(link: int, noise: bytes, kept: int) -> None:
+def test_hostile_octets_never_crash(kind: int, noise: bytes, kept: int) -> None:
     for data in (noise, V4[:kept] + noise, V6[:kept] + noise, ethernet(V4)[:kept] + noise):
         try:
-            segment = segment_of(Packet(1, 0, link, data))
+            segment = segment_of(Packet(1, 0, kind, data))
         except UnreadableError as error:
             segment = None
             assert error.fault.layer == "tcp"  # noqa: PT017

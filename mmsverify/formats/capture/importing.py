@@ -189,7 +189,9 @@ class _Import:
             self._report(segment.packet, Fault("tcp", f"{segment.missing} octets are not in the capture"))
 
     def _happening(self, connection: Connection, happening: Happening) -> None:
-        known = self._conversations.setdefault(connection, _Unnamed())
+        known = self._conversations.get(connection)
+        if known is None:
+            known = self._conversations[connection] = _Unnamed()
         if isinstance(known, _Unnamed):
             if known.foreign:
                 return

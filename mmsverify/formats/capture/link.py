@@ -1,9 +1,14 @@
-"""From a captured packet to a TCP segment: link layers, IPv4 and IPv6, by dpkt. No state is kept here."""
+"""From a captured packet to a TCP segment: link layers, IPv4 and IPv6, by dpkt. No state is kept here.
+
+What nearly all packets are, TCP on IPv4 without options on Ethernet, is read at once: dpkt takes ten times as
+long for it. Everything else, and whatever is odd about such a packet, goes to dpkt.
+"""
 
 from __future__ import annotations
 
 import ipaddress
-from dataclasses import dataclass
+import struct
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import dpkt
@@ -29,8 +34,7 @@ class Endpoint(NamedTuple):
     port: int
 
 
-@dataclass(frozen=True, slots=True)
-class Segment:
+class Segment(NamedTuple):
     """One TCP segment as captured. ``missing`` octets of its data were cut off by the snap length."""
 
     packet: int
@@ -51,6 +55,48 @@ def segment_of(packet: Packet) -> Segment | None:
 
     Raises ``UnreadableError`` where IP says TCP and there is none.
     """
+    return (packet.link == _ETHERNET and _usual(packet)) or _any(packet)
+
+
+# Ethernet type; version and header length, total length, fragment, protocol and addresses of IP; ports,
+# sequence and acknowledgement numbers, data offset and flags of TCP.
+_USUAL = struct.Struct(">12xHBxHxxHxBxx4s4sHHIIBB")
+_ETHERNET_HEAD, _IP_HEAD = 14, 20
+
+
+def _usual(packet: Packet) -> Segment | None:
+    """The segment, if the packet is whole and as plain as most are; else nothing."""
+    data = packet.data
+    if len(data) < _USUAL.size:
+        return None
+    kind, version, length, fragment, protocol, source, target, sport, dport, seq, ack, offset, flags = (
+        _USUAL.unpack_from(data)
+    )
+    begin, end = _ETHERNET_HEAD + _IP_HEAD + (offset >> 4) * 4, _ETHERNET_HEAD + length
+    if kind != 0x0800 or version != 0x45 or protocol != _TCP or fragment & 0x3FFF:
+        return None
+    if not _ETHERNET_HEAD + 2 * _IP_HEAD <= begin <= end <= len(data):
+        return None
+    return Segment(
+        packet.number,
+        packet.time,
+        _endpoint(source, sport),
+        _endpoint(target, dport),
+        seq,
+        ack if flags & dpkt.tcp.TH_ACK else None,
+        bool(flags & dpkt.tcp.TH_SYN),
+        bool(flags & dpkt.tcp.TH_FIN),
+        bool(flags & dpkt.tcp.TH_RST),
+        data[begin:end],
+    )
+
+
+@lru_cache(maxsize=1 << 14)
+def _endpoint(address: bytes, port: int) -> Endpoint:
+    return Endpoint(str(ipaddress.ip_address(address)), port)
+
+
+def _any(packet: Packet) -> Segment | None:
     try:
         network = _network(packet.link, packet.data)
     except (
@@ -104,8 +150,8 @@ def _segment(packet: Packet, network: Any, tcp: Any) -> Segment:
     return Segment(
         packet=packet.number,
         time=packet.time,
-        source=Endpoint(str(ipaddress.ip_address(network.src)), tcp.sport),
-        target=Endpoint(str(ipaddress.ip_address(network.dst)), tcp.dport),
+        source=_endpoint(network.src, tcp.sport),
+        target=_endpoint(network.dst, tcp.dport),
         seq=tcp.seq,
         ack=tcp.ack if flags & dpkt.tcp.TH_ACK else None,
         syn=bool(flags & dpkt.tcp.TH_SYN),

@@ -13,7 +13,7 @@ import zlib
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import BinaryIO
+from typing import BinaryIO, NamedTuple
 
 from mmsverify.errors import InputError
 
@@ -32,8 +32,7 @@ _SECTION, _INTERFACE, _OLD_PACKET, _SIMPLE, _ENHANCED = 0x0A0D0D0A, 1, 2, 3, 6
 _ORDERS = {b"\x1a\x2b\x3c\x4d": ">", b"\x4d\x3c\x2b\x1a": "<"}
 
 
-@dataclass(frozen=True, slots=True)
-class Packet:
+class Packet(NamedTuple):
     """One packet: its number in the file from 1, capture time in ns, link type (LINKTYPE_...), octets."""
 
     number: int
@@ -107,12 +106,15 @@ def _exactly(file: BinaryIO, count: int) -> bytes:
     return data
 
 
-def _next(file: BinaryIO) -> bytes:
-    """The first octet of what follows, or nothing at the end of the file."""
+def _next(file: BinaryIO, count: int) -> bytes:
+    """So many octets, or nothing at the end of the file."""
     try:
-        return file.read(1)
+        data = file.read(count)
     except (EOFError, zlib.error, gzip.BadGzipFile):
         raise CutError from None
+    if data and len(data) < count:
+        raise CutError
+    return data
 
 
 def _reader(magic: bytes, file: BinaryIO) -> Iterator[tuple[int, int, bytes]]:
@@ -125,9 +127,9 @@ def _reader(magic: bytes, file: BinaryIO) -> Iterator[tuple[int, int, bytes]]:
 
 def _pcap(file: BinaryIO, order: str, tick: int, size: int) -> Iterator[tuple[int, int, bytes]]:
     link = struct.unpack(order + "I", _exactly(file, 20)[16:])[0] & 0xFFFF  # above: the length of the FCS
-    while head := _next(file):
-        head += _exactly(file, size - 1)
-        seconds, fraction, count = struct.unpack_from(order + "III", head)
+    head_of = struct.Struct(order + "III").unpack_from
+    while head := _next(file, size):
+        seconds, fraction, count = head_of(head)
         yield seconds * _NANO + fraction * tick, link, _exactly(file, count)
 
 
@@ -154,8 +156,8 @@ class _Sections:
     def packets(self) -> Iterator[tuple[int, int, bytes]]:
         """Walk the blocks; the type of the first was already read."""
         self._section()
-        while kind := _next(self._file):
-            number = self._unpack("I", kind + _exactly(self._file, 3))[0]
+        while kind := _next(self._file, 4):
+            number = self._unpack("I", kind)[0]
             if number == _SECTION:
                 self._section()
                 continue

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from mmsverify.formats.capture.faults import UnreadableError
 from mmsverify.formats.capture.tlv import Element, elements, first, only
@@ -16,8 +16,7 @@ _INTEGER, _OBJECT = 0x02, 0x06
 _SINGLE, _ALIGNED, _ARBITRARY = 0xA0, 0x81, 0x82
 
 
-@dataclass(frozen=True, slots=True)
-class Value:
+class Value(NamedTuple):
     """One presentation data value: the context that it stands in and its octets."""
 
     context: int

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from mmsverify.formats.capture.faults import Fault, UnreadableError
 
@@ -27,8 +27,7 @@ _PRESENTATION = (0x31, 0x61)  # a CP or CPA; fully encoded data
 _FOREIGN = {0x32: "S7 communication", 0x72: "S7 communication plus"}
 
 
-@dataclass(frozen=True, slots=True)
-class Spdu:
+class Spdu(NamedTuple):
     """One SPDU: its kind, the presentation's data, and what was odd about it though it could be read."""
 
     kind: str

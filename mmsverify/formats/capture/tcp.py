@@ -6,9 +6,8 @@ known here. RFC 9293 names the fields; sequence numbers are compared modulo 2**3
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Literal
+from collections.abc import Iterable, Iterator
+from typing import Literal, NamedTuple
 
 from mmsverify.formats.capture.link import Endpoint, Segment
 
@@ -20,8 +19,7 @@ _PATIENCE = 200  # segments of the connection after which a hole is believed
 _PATIENCE_ACKNOWLEDGED = 16  # the same where the receiver says that it has what the capture has not
 
 
-@dataclass(frozen=True, slots=True)
-class Piece:
+class Piece(NamedTuple):
     """Octets of one direction in order; ``lost`` ones (-1: unknown how many) are missing before them."""
 
     packet: int
@@ -30,8 +28,7 @@ class Piece:
     lost: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Happening:
+class Happening(NamedTuple):
     """What a connection shows: it opens, ``source`` says ``data``, something is missing (gap), it ends."""
 
     kind: Literal["open", "data", "gap", "close", "reset"]
@@ -63,6 +60,14 @@ class Stream:
         """Learn where the stream stands, if that is not known yet."""
         if self.next is None:
             self.start = self.next = seq
+
+    def acknowledge(self, seq: int | None) -> None:
+        """The other side has everything before ``seq``."""
+        if seq is None or seq == self.acknowledged:
+            return
+        self.expect(seq)
+        if self.acknowledged is None or _after(seq, self.acknowledged) > 0:
+            self.acknowledged = seq
 
     def push(self, seq: int, piece: Piece) -> list[Piece]:
         """Take in captured octets; give back what is now in order."""
@@ -110,6 +115,11 @@ class Stream:
         return self.fin is not None and self.next is not None and _after(self.fin, self.next) <= 0
 
     @property
+    def ending(self) -> bool:
+        """Whether octets wait behind a hole, or the stream's end was seen."""
+        return bool(self._waiting) or self.fin is not None
+
+    @property
     def holed(self) -> bool:
         """Whether octets wait behind a hole."""
         return bool(self._waiting)
@@ -141,16 +151,34 @@ class Connection:
         self._streams = {first.source: Stream(), first.target: Stream()}
         self._last = first
 
-    def feed(self, segment: Segment) -> Iterator[Happening]:
+    def feed(self, segment: Segment) -> Iterable[Happening]:
         """What one more segment brings about."""
         self._last = segment
         stream, other = self._streams[segment.source], self._streams[segment.target]
+        if self._plain(segment, stream, other):
+            other.acknowledge(segment.ack)
+            if not segment.data:
+                return ()
+            stream.next = (segment.seq + len(segment.data)) % _MODULUS
+            return (Happening("data", segment.packet, segment.time, segment.source, segment.data),)
+        return self._anything(segment, stream, other)
+
+    def _plain(self, segment: Segment, stream: Stream, other: Stream) -> bool:
+        """Whether only the next octets come, if any, and nothing else is going on: the case of nearly all."""
+        return not (
+            segment.syn
+            or segment.fin
+            or segment.rst
+            or segment.seq != stream.next
+            or stream.ending
+            or other.ending
+            or not (self._open or self.opener is None)
+        )
+
+    def _anything(self, segment: Segment, stream: Stream, other: Stream) -> Iterator[Happening]:
         if segment.syn:
             yield from self._handshake(segment, stream)
-        if segment.ack is not None:
-            other.expect(segment.ack)
-            if other.acknowledged is None or _after(segment.ack, other.acknowledged) > 0:
-                other.acknowledged = segment.ack
+        other.acknowledge(segment.ack)
         if segment.data:
             yield from self._opened(segment)
             piece = Piece(segment.packet, segment.time, segment.data)
@@ -227,16 +255,17 @@ class Connections:
     def __init__(self) -> None:
         self._known: dict[frozenset[Endpoint], Connection] = {}
 
-    def feed(self, segment: Segment) -> Iterator[tuple[Connection, Happening]]:
+    def feed(self, segment: Segment) -> Iterable[tuple[Connection, Happening]]:
         """What one segment brings about, on which connection."""
         key = frozenset((segment.source, segment.target))
         connection = self._known.get(key)
+        before: list[tuple[Connection, Happening]] = []
         if connection is not None and _begins_anew(connection, segment):
-            yield from ((connection, happening) for happening in connection.end())
+            before = [(connection, happening) for happening in connection.end()]
             connection = None
         if connection is None:
             connection = self._known[key] = Connection(segment)
-        yield from ((connection, happening) for happening in connection.feed(segment))
+        return before + [(connection, happening) for happening in connection.feed(segment)]
 
     def end(self) -> Iterator[tuple[Connection, Happening]]:
         """The capture ends: what every connection still has to say."""

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from mmsverify.formats import ber
 from mmsverify.formats.capture.faults import UnreadableError
 
 
-@dataclass(frozen=True, slots=True)
-class Element:
+class Element(NamedTuple):
     """One element: its identifier octets as a number, its contents, and all its octets."""
 
     tag: int
