@@ -289,3 +289,24 @@ def test_a_capture_that_breaks_off_is_read_to_the_break(tmp_path: Path) -> None:
     inputs, _ = imported(tmp_path, captured(whole())[:-5])
     assert (inputs[0].frames, inputs[0].pdus["mms"]) == (13, 6)
     assert [(entry.packet, entry.layer) for entry in inputs[0].undecoded] == [(14, "file")]
+
+
+@pytest.mark.parametrize(
+    ("first", "found"),
+    [
+        ("000100000006ff0408d20002", True),  # a request
+        ("0001000000060104020001ff", False),  # its counts disagree
+        ("000100000007010404000100ff", True),  # an answer, where the capture begins late
+        ("000100000006ff0408d2007e", False),  # 126 registers
+        ("000100000006ff0408d20002ff", False),  # an octet too many
+        ("000100010006ff0408d20002", False),  # another protocol
+        ("000100000006ff4108d20002", False),  # another function code
+    ],
+)
+def test_modbus_is_found_on_any_port_by_its_first_octets(first: str, found: bool, tmp_path: Path) -> None:
+    talk = Talk(server=("10.0.0.5", 1502)).shake()
+    talk.say(("client", bytes.fromhex(first)), ("server", bytes.fromhex("000100000007ff040400010002")))
+    inputs, rows = imported(tmp_path, captured(talk.close()))
+    assert inputs[0].pdus["modbus"] == (2 if found else 0)
+    assert inputs[0].undecoded == []
+    assert ("/10.0.0.5:1502/link", "c1 open modbus") in rows if found else rows == []

@@ -17,7 +17,7 @@ from mmsverify.formats.trace import Channel
 from mmsverify.model import MINUS, load
 from mmsverify.resources import models_dir
 
-# Each rule.
+# Each rule; modbus.read-back has a file of its own.
 
 
 def test_octets_that_are_no_adu_are_told_once() -> None:

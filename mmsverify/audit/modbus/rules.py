@@ -55,6 +55,13 @@ MODBUS_RULES: Mapping[str, Rule] = {
             severity="note", expects=("result(+)",), observed="result(-)",
         ),
         rule(
+            "modbus.read-back",
+            "{what} {address} is read back as {found}, but {written} was written last by a message: "
+            "a program may have, or a client that is not in the recording",
+            "M-2.2-8",
+            severity="note", expects=("{address}={written}",), observed="{address}={found}",
+        ),
+        rule(
             "modbus.closed",
             "the {sender} sends on a connection that was {event}",
             "M-2-S4b", "M-2.1-6", "M-2.1-8",

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from mmsverify.audit.modbus.access import Access, Plan
+from mmsverify.audit.modbus.memory import Memory, writes
 from mmsverify.audit.modbus.rules import MODBUS_RULES
 from mmsverify.audit.rule import Breach
 from mmsverify.audit.telling import Place, of_rule
@@ -25,6 +27,7 @@ class Asked:
     """A request that waits: its message and what it says.
 
     ``passed``: a later one has been answered. ``lost``: its answer may be missing in the recording.
+    ``contested``: another one that writes was under way meanwhile, and which was performed last is not known.
     """
 
     message: TraceMessage
@@ -32,6 +35,12 @@ class Asked:
     request: Request | None
     passed: bool = False
     lost: bool = False
+    contested: bool = False
+
+    @property
+    def writes(self) -> bool:
+        """Whether it asks for a change."""
+        return self.request is not None and writes(self.request)
 
     @property
     def overdue(self) -> bool:
@@ -68,6 +77,7 @@ class Server:
         self._place, self._access, self._plan = place, access, plan
         self._connections: dict[str, Connection] = {}
         self._most = plan.profile["max_clients"]
+        self._memory = defaultdict[int, Memory](Memory)  # by unit
         self._strays: set[int] = set()
         self._overdue: list[Asked] = []
         self._overtakes = False
@@ -79,6 +89,7 @@ class Server:
         connection = self._connections.setdefault(name, Connection())
         if event == "gap":
             connection.lose()
+            self._memory.clear()
             return
         self._pass_over(connection)
         if event == "open":
@@ -121,13 +132,11 @@ class Server:
             adu = modbus.decode(message.data)
         except DecodeError as error:
             connection.lose()  # whatever it was, it may have been a request, or an answer
+            self._memory.clear()
             yield self._found(message, "modbus.undecodable", cause=error.cause)
             return
         if sender == "client":
-            again = connection.asked.pop(adu.transaction, None)  # its first request is not answered any more
-            if again is not None and again.overdue:
-                self._overdue.append(again)
-            connection.asked[adu.transaction] = Asked(message, adu, modbus.request(adu))
+            self._asked(connection, Asked(message, adu, modbus.request(adu)))
             return
         if connection.excess is not None:
             at, connection.excess = connection.excess, None
@@ -136,6 +145,20 @@ class Server:
             if count > self._most:
                 yield self._found(at, "modbus.too-many", count=count, most=self._most)
         yield from self._answered(connection, adu, message)
+
+    def _asked(self, connection: Connection, asked: Asked) -> None:
+        again = connection.asked.pop(
+            asked.adu.transaction, None
+        )  # its first request is not answered any more
+        if again is not None and again.overdue:
+            self._overdue.append(again)
+        if asked.writes and asked.request is not None:
+            self._memory[asked.adu.unit].ask(asked.request)
+            waiting = (other for each in self._connections.values() for other in each.asked.values())
+            for other in waiting:
+                asked.contested |= other.writes
+                other.contested |= other.writes
+        connection.asked[asked.adu.transaction] = asked
 
     def _answered(self, connection: Connection, adu: Adu, message: TraceMessage) -> Iterator[Finding]:
         asked = connection.asked.pop(adu.transaction, None)
@@ -184,6 +207,28 @@ class Server:
                 yield self._found(message, "modbus.refused", code=adu.data[0], related=(asked.message.index,))
         elif refusal is not None:
             yield self._wrongly_accepted(asked, asked.request, message, refusal)
+        elif not modbus.unlike(asked.request, adu):
+            yield from self._remembered(asked, asked.request, adu, message)
+
+    def _remembered(
+        self, asked: Asked, request: Request, adu: Adu, message: TraceMessage
+    ) -> Iterator[Finding]:
+        """Keep what was written; tell what is read back as something else."""
+        memory = self._memory[adu.unit]
+        if asked.writes:
+            if not (asked.contested or asked.lost):
+                memory.accept(request, asked.adu.data, asked.message.index, message.index)
+            return
+        for (bit, address), value, written in memory.read(request, adu, asked.message.index):
+            yield self._found(
+                message,
+                "modbus.read-back",
+                related=(written.asked, asked.message.index),
+                what="signal at" if bit else "register",
+                address=address,
+                found=value,
+                written=written.value,
+            )
 
     def _wrongly_accepted(
         self, asked: Asked, request: Request, message: TraceMessage, refusal: Conjunct

@@ -11,7 +11,7 @@ from mmsverify.formats.capture import tpkt
 from mmsverify.formats.capture.association import PDU_TAGS, Association
 from mmsverify.formats.capture.faults import Fault
 from mmsverify.formats.capture.link import Endpoint
-from mmsverify.formats.capture.modbus import ModbusConnection
+from mmsverify.formats.capture.modbus import ModbusConnection, looks_like_modbus
 from mmsverify.formats.capture.tcp import Connection, Happening
 from mmsverify.formats.mcap_write import TraceWriter
 from mmsverify.formats.trace import Channel, LinkEvent, Role, Sender
@@ -32,7 +32,7 @@ class Reader(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Ports:
-    """On which TCP ports which protocol is expected. MMS is also found elsewhere, by its first octets."""
+    """On which TCP ports which protocol is expected; elsewhere both are found by their first octets."""
 
     mms: frozenset[int] = frozenset({102})
     modbus: frozenset[int] = frozenset({502})
@@ -149,6 +149,13 @@ def channels(role: Role, host: str, name: str) -> dict[Sender, Channel]:
     """Where the messages of both sides of a connection stand in a trace."""
     kind = Channel.mms if role == "mms" else Channel.modbus
     return {"client": kind(host, name, "client"), "server": kind(host, name, "server")}
+
+
+def role_of(data: bytes) -> Role | None:
+    """The protocol that a side's first octets are of, on a port where none is expected."""
+    if looks_like_mms(data):
+        return "mms"
+    return "modbus" if looks_like_modbus(data) else None
 
 
 def looks_like_mms(data: bytes) -> bool:

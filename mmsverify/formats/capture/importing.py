@@ -14,8 +14,8 @@ from mmsverify.formats.capture.conversation import (
     Names,
     Ports,
     channels,
-    looks_like_mms,
     reader,
+    role_of,
     server_of,
 )
 from mmsverify.formats.capture.faults import Fault, UnreadableError
@@ -207,7 +207,7 @@ class _Import:
         if happening.kind == "open" and role is None:
             unnamed.opened = happening
         if happening.kind == "data" and role is None:
-            role = "mms" if looks_like_mms(happening.data) else None
+            role = role_of(happening.data)
             unnamed.foreign = role is None
         if role is None or happening.kind not in ("open", "data"):
             return unnamed

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from mmsverify.errors import DecodeError
+from mmsverify.formats import modbus
 from mmsverify.formats.capture.faults import Fault
 from mmsverify.formats.trace import Sender
 
@@ -54,3 +56,24 @@ def _wrong(held: bytes) -> str:
     if len(held) >= _HEAD and not _SHORTEST <= int.from_bytes(held[4:6]) <= _LONGEST:
         return f"a length of {int.from_bytes(held[4:6])}"
     return ""
+
+
+def looks_like_modbus(data: bytes) -> bool:
+    """Whether a side's first octets are those of Modbus on a port where nobody expects it.
+
+    They must be one whole ADU and nothing else, and either a request that is right in every field or an
+    answer whose counts are: two octets of zeros and a length alone stand in many protocols.
+    """
+    try:
+        adu = modbus.decode(data)
+    except DecodeError:
+        return False
+    asked = modbus.request(adu)
+    return asked is not None and (not asked.amiss or _counts(adu))
+
+
+def _counts(adu: modbus.Adu) -> bool:
+    """Whether an ADU is the answer to a read: as many octets as it says, of words an even number."""
+    reads = adu.function <= modbus.Function.READ_INPUT_REGISTERS
+    even = adu.function in modbus.BITS or len(adu.data) % 2 == 1
+    return reads and even and len(adu.data) > 1 and adu.data[0] == len(adu.data) - 1
