@@ -20,7 +20,7 @@ from pathlib import Path
 import dpkt
 
 TESTS = Path(__file__).parent.parent / "tests"
-sys.path[:0] = [str(TESTS), str(TESTS / "unit")]
+sys.path.insert(0, str(TESTS))
 
 from capture_wire import STATUS, STATUS_ANSWER, Talk, captured, dt, mms  # noqa: E402
 
