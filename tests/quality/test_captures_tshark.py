@@ -37,7 +37,8 @@ TSHARK = shutil.which("tshark")
 ROOT = Path(__file__).parents[2]
 FOLDER = Path(os.environ.get("MMSVERIFY_CAPTURES", ROOT.parent / "shared" / "captures"))
 OWN = sorted(FOLDER.glob("*.pcap*")) if FOLDER.is_dir() else []
-# What tshark takes for MMS and a strict reader does not: a stack that is broken on purpose.
+# Stacks that are broken: of each of them tshark gives up one PDU (a Conclude after a TPKT of no length, a response
+# that is cut off) that can be told apart all the same.
 BEYOND_TSHARK = {"mms-startRequest.pcap", "mms-killRequest.pcap", "iec61850_read.pcap"}
 
 pytestmark = pytest.mark.skipif(TSHARK is None, reason="tshark is not installed")
@@ -82,7 +83,8 @@ def test_a_real_capture_is_read_as_tshark_reads_it(path: Path, tmp_path: Path) -
     expected = tshark(path)
     assert sum(counts.values()) == len(found)
     if path.name in BEYOND_TSHARK:
-        pytest.skip("a stack that is broken on purpose")
+        assert len(found) == len(expected) + 1
+        found = [pdu for pdu in found if pdu in expected]
     assert found == expected
 
 
