@@ -37,8 +37,7 @@ TSHARK = shutil.which("tshark")
 ROOT = Path(__file__).parents[2]
 FOLDER = Path(os.environ.get("MMSVERIFY_CAPTURES", ROOT.parent / "shared" / "captures"))
 OWN = sorted(FOLDER.glob("*.pcap*")) if FOLDER.is_dir() else []
-# Stacks that are broken: of each of them tshark gives up one PDU (a Conclude after a TPKT of no length, a response
-# that is cut off) that can be told apart all the same.
+# Stacks that are broken: of each of them tshark gives up one PDU that can be told apart all the same.
 BEYOND_TSHARK = {"mms-startRequest.pcap", "mms-killRequest.pcap", "iec61850_read.pcap"}
 
 pytestmark = pytest.mark.skipif(TSHARK is None, reason="tshark is not installed")
