@@ -20,6 +20,8 @@ _GRAPHIC = re.compile(rb"[\x1b\x20-\x7e\xa0-\xff]*\Z")
 _CONTROL = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\x7f-\x9f]")
 _TIME = re.compile(r"\d{10}(\d{2}(\d{2})?)?([.,]\d+)?(Z|[+-]\d{2}(\d{2})?)?\Z")
 _ARC_LIMIT = 1 << 128
+LONGEST_INTEGER = 256
+"""Octets of an INTEGER that is read: no type of MMS has longer ones, and no report could print much more."""
 
 
 class Fault(Exception):  # noqa: N818 - never leaves this folder
@@ -128,6 +130,8 @@ def read_integer(octets: bytes, begin: int, end: int) -> int:
         return octet if octet < 0x80 else octet - 0x100
     if end == begin:
         raise Fault("an INTEGER without octets", begin)
+    if end - begin > LONGEST_INTEGER:
+        raise Fault(f"an INTEGER of {end - begin} octets, and {LONGEST_INTEGER} is the most", begin)
     first, second = octets[begin], octets[begin + 1]
     if (first == 0 and second < 0x80) or (first == 0xFF and second >= 0x80):
         raise Fault("an INTEGER in more octets than it needs", begin)
