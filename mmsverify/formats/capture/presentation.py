@@ -14,6 +14,7 @@ _NORMAL_MODE, _SET, _SEQUENCE, _USER_DATA = 0xA2, 0x31, 0x30, 0x61
 _DEFINITIONS, _RESULTS = 0xA4, 0xA5
 _INTEGER, _OBJECT = 0x02, 0x06
 _SINGLE, _ALIGNED, _ARBITRARY = 0xA0, 0x81, 0x82
+_LONGEST = 8  # octets of a number; contexts are small odd ones, results smaller still
 
 
 class Value(NamedTuple):
@@ -84,6 +85,8 @@ def _accepted(item: Element) -> bool:
 
 
 def _integer(element: Element) -> int:
+    if len(element.contents) > _LONGEST:
+        raise UnreadableError(_LAYER, f"a number of {len(element.contents)} octets")
     return int.from_bytes(element.contents, "big", signed=True)
 
 
