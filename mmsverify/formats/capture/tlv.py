@@ -8,6 +8,8 @@ from typing import NamedTuple
 from mmsverify.formats import ber
 from mmsverify.formats.capture.faults import UnreadableError
 
+_MOST = 10_000  # elements side by side; a list of contexts or values has some ten
+
 
 class Element(NamedTuple):
     """One element: its identifier octets as a number, its contents, and all its octets."""
@@ -19,8 +21,11 @@ class Element(NamedTuple):
 
 def elements(octets: bytes, layer: str) -> Iterator[Element]:
     """The elements that stand one after the other in ``octets``. Raises ``UnreadableError`` for ``layer``."""
-    at = 0
+    at = count = 0
     while at < len(octets):
+        count += 1
+        if count > _MOST:
+            raise UnreadableError(layer, f"more than {_MOST} elements side by side")
         try:
             tag, begin, end = ber.header(octets, at, len(octets))
         except ber.Fault as fault:

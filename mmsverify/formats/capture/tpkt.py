@@ -80,7 +80,10 @@ class Framer:
 
     def _search(self) -> Iterator[Fault]:
         size = len(self._held)
-        at = next((at for at in range(size) if boundary(self._held, at)), size)
+        at = self._held.find(3)
+        while at >= 0 and not boundary(self._held, at):
+            at = self._held.find(3, at + 1)
+        at = size if at < 0 else at
         self._aligned = at + _PROBE <= size
         if at:
             yield self._skip(at, f"{at} octets that belong to no TPKT")
