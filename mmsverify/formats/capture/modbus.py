@@ -24,19 +24,20 @@ class ModbusConnection:
 
     def feed(self, sender: Sender, data: bytes) -> Iterator[bytes | Fault]:
         """Take in octets of one side; give ADUs and faults in order."""
-        held = self._held[sender] + data
+        held, at = self._held[sender] + data, 0
         self._held[sender] = b""
-        while held:
-            reason = _wrong(held)
+        while at < len(held):
+            head, left = held[at : at + _HEAD], len(held) - at
+            reason = _wrong(head)
             if reason:
-                yield Fault("modbus", f"{len(held)} octets that are no ADU: {reason}")
+                yield Fault("modbus", f"{left} octets that are no ADU: {reason}")
                 return
-            size = _HEAD + int.from_bytes(held[4:6])
-            if len(held) < _HEAD or len(held) < size:
-                self._held[sender] = held
+            size = _HEAD + int.from_bytes(head[4:6])
+            if left < _HEAD or left < size:
+                self._held[sender] = held[at:]
                 return
-            yield held[:size]
-            held = held[size:]
+            yield held[at : at + size]
+            at += size
 
     def lose(self, sender: Sender) -> None:
         """Octets of this side are missing from here on back."""
