@@ -17,7 +17,9 @@ from typing import BinaryIO, NamedTuple
 
 from mmsverify.errors import InputError
 
-_LARGEST = 64 << 20  # octets of one packet or block; a larger claim is a lie
+# Octets of one block, and of one packet in it; a larger claim is a lie. The limits are those of Wireshark.
+_LARGEST = 16 << 20
+_LARGEST_PACKET = 256 << 10
 _NANO = 1_000_000_000
 _LATEST = (1 << 64) - 1  # what a trace can hold
 _PCAP = {  # magic as it stands in the file: byte order, ns per tick, size of a packet's header
@@ -94,8 +96,8 @@ def _open(path: str) -> BinaryIO:
         raise InputError(str(error)) from None
 
 
-def _exactly(file: BinaryIO, count: int) -> bytes:
-    if count > _LARGEST:
+def _exactly(file: BinaryIO, count: int, largest: int = _LARGEST) -> bytes:
+    if count > largest:
         raise InputError(f"a packet or block claims {count} octets", cure="the capture is damaged")
     try:
         data = file.read(count)
@@ -130,7 +132,15 @@ def _pcap(file: BinaryIO, order: str, tick: int, size: int) -> Iterator[tuple[in
     head_of = struct.Struct(order + "III").unpack_from
     while head := _next(file, size):
         seconds, fraction, count = head_of(head)
-        yield seconds * _NANO + fraction * tick, link, _exactly(file, count)
+        yield seconds * _NANO + fraction * tick, link, _exactly(file, count, _LARGEST_PACKET)
+
+
+def _captured(body: bytes, at: int, count: int) -> bytes:
+    """The octets of a packet in its block; what a block claims beyond its own end is not there."""
+    octets = body[at : at + count]
+    if len(octets) > _LARGEST_PACKET:
+        raise InputError(f"a packet or block claims {count} octets", cure="the capture is damaged")
+    return octets
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,13 +202,17 @@ class _Sections:
             self._interfaces.append(self._interface(body))
         elif kind == _ENHANCED:
             number, high, low, count, _ = self._unpack("IIIII", body)
-            return self._packet(number, high, low, body[20 : 20 + count])
+            return self._packet(number, high, low, _captured(body, 20, count))
         elif kind == _OLD_PACKET:
             number, _, high, low, count, _ = self._unpack("HHIIII", body)
-            return self._packet(number, high, low, body[20 : 20 + count])
+            return self._packet(number, high, low, _captured(body, 20, count))
         elif kind == _SIMPLE:
             count = self._unpack("I", body)[0]
-            return self._time, self._of(0).link, body[4 : 4 + count]  # has no time: that of the packet before
+            return (
+                self._time,
+                self._of(0).link,
+                _captured(body, 4, count),
+            )  # has no time: that of the packet before
         return None
 
     def _packet(self, number: int, high: int, low: int, data: bytes) -> tuple[int, int, bytes]:
@@ -224,10 +238,11 @@ class _Sections:
 
     def _options(self, data: bytes) -> dict[int, bytes]:
         found: dict[int, bytes] = {}
-        while len(data) >= 4:
-            code, length = self._unpack("HH", data)
+        at = 0
+        while at + 4 <= len(data):
+            code, length = self._unpack("HH", data[at : at + 4])
             if code == 0:
                 break
-            found[code] = data[4 : 4 + length]
-            data = data[4 + length + -length % 4 :]
+            found[code] = data[at + 4 : at + 4 + length]
+            at += 4 + length + -length % 4
         return found
