@@ -24,7 +24,9 @@ _TIME_NAMES = {
 }  # fmt: skip
 _DATE_NAMES = {"date", "datum", "日期"}
 _MILLISECOND_NAMES = {"millisecond", "milliseconds", "msec", "毫秒"}
-_WITH_UNIT = re.compile(r"(.*?)(?:\s*[(\[]\s*([^()\[\]]*)\s*[)\]]|(?:\s*[/,]\s*|_|\s)(\w+))", re.DOTALL)
+# No white space is matched before a mark or inside brackets: what matches from anywhere takes ever longer.
+_WITH_UNIT = re.compile(r"(.*?)(?:[(\[]([^()\[\]]*)[)\]]|(?:[/,]\s*|_|\s)(\w+))", re.DOTALL)
+_LONGEST_HEADER = 100  # characters; what is longer names no time and no unit
 _COMMENT = re.compile(r"\s*(?:#|%|//)+\s*")
 
 Row = Sequence[str]
@@ -164,21 +166,26 @@ def _above(row: Row, first: Row) -> tuple[str, ...]:
 def _names(row: Row) -> tuple[str, ...]:
     names = [text.strip() for text in row]
     if names:
-        names[0] = _COMMENT.sub("", names[0], count=1)
+        remark = _COMMENT.match(names[0])
+        names[0] = names[0][remark.end() :] if remark else names[0]
     return tuple(names)
 
 
 def _time_name(text: str) -> bool:
     """Whether a header is that of a time, with or without its unit."""
-    parted = _WITH_UNIT.fullmatch(text)
+    parted = _parted(text)
     bare = parted[1] if parted and unit_word(parted[2] or parted[3] or "") else text
     return bare.strip().casefold() in _TIME_NAMES
 
 
 def _unit_of(header: str) -> str:
     """The unit that a header names, such as ``Time (ms)`` or ``t_us``."""
-    parted = _WITH_UNIT.fullmatch(header)
+    parted = _parted(header)
     return unit_word(parted[2] or parted[3] or "") if parted else unit_word(header)
+
+
+def _parted(header: str) -> re.Match[str] | None:
+    return _WITH_UNIT.fullmatch(header) if len(header) <= _LONGEST_HEADER else None
 
 
 @dataclass(frozen=True, slots=True)

@@ -16,7 +16,7 @@ from typing import Literal
 
 from mmsverify.errors import InputError
 from mmsverify.formats.csv_layout import LOOKED_AT, Asked, Layout, is_comment, layout_of
-from mmsverify.formats.csv_text import opened
+from mmsverify.formats.csv_text import LONGEST, opened
 from mmsverify.formats.csv_values import is_time_of_day, nanoseconds, number
 from mmsverify.formats.vr import Number
 
@@ -65,7 +65,7 @@ class CsvSamples:
 
     def __iter__(self) -> Iterator[CsvSample]:
         with opened(self.path) as lines:
-            begin = list(islice(lines, LOOKED_AT))
+            begin = list(_begin(lines))
         if not any(line.strip() for line in begin):
             raise InputError("is empty", place=self.path)
         layout = layout_of(begin, self.asked, self.path)
@@ -139,6 +139,16 @@ class CsvSamples:
 
     def _error(self, line: int, cause: str, cure: str) -> InputError:
         return InputError(cause, place=f"{self.path}:{line}", cure=cure)
+
+
+def _begin(lines: Iterator[str]) -> Iterator[str]:
+    """The lines that are looked at for the layout: so many, and so many characters."""
+    taken = 0
+    for line in islice(lines, LOOKED_AT):
+        yield line
+        taken += len(line)
+        if taken > LONGEST:
+            return
 
 
 def _at(row: Sequence[str], column: int | None) -> str:

@@ -11,7 +11,7 @@ from typing import TextIO
 
 from mmsverify.errors import InputError
 
-LONGEST = 1 << 20
+LONGEST = 1 << 17
 """Characters of one line; what is longer is no table of samples."""
 
 _PIECE = 1 << 16

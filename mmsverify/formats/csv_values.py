@@ -28,14 +28,20 @@ _UNIT_WORDS = {
     **dict.fromkeys(("ms", "msec", "millisecond", "milliseconds", "毫秒"), "ms"),
     **dict.fromkeys(("s", "sec", "second", "seconds", "秒"), "s"),
 }
+LONGEST = 400
+"""Characters of a number or a time: what is longer is neither, and is not kept in mind."""
 _EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
 _FURTHEST = 25
 """The largest power of ten, in ns, that is looked at: beyond what a trace can hold."""
 
 
-@lru_cache(maxsize=4096)
 def number(text: str) -> Number | None:
     """A number as controllers and oscilloscopes write it, 6.0 as 6; nothing for what is none."""
+    return _number(text) if len(text) <= LONGEST else None
+
+
+@lru_cache(maxsize=4096)
+def _number(text: str) -> Number | None:
     text = text.strip()
     if not _NUMBER.fullmatch(text):
         return None
@@ -49,6 +55,8 @@ def nanoseconds(text: str, unit: str) -> int | None:
     Nothing for what is no time.
     """
     text = text.strip()
+    if len(text) > LONGEST:
+        return None
     if _NUMBER.fullmatch(text):
         value = Decimal(text.replace(",", ".")) * UNITS[unit]
         return round(value) if value.adjusted() < _FURTHEST else None
