@@ -60,6 +60,9 @@ _AROUND = re.compile(r"VR\s*[(\[]\s*(\w+)\s*[)\]]", re.IGNORECASE)
 
 Number = int | float
 
+LONGEST_NAME = 200
+"""Characters of a name that is looked at: what is longer names no cell, and is not kept in mind."""
+
 
 @dataclass(frozen=True, slots=True)
 class BadCell:
@@ -77,12 +80,16 @@ class Sample:
     bad: tuple[BadCell, ...] = ()
 
 
-@lru_cache(maxsize=1024)
 def cell(text: str) -> Cell | None:
     """The cell that a text names: ``C_RunMD``, ``VR(0)``, ``VR[0]``, ``VR0``, ``VR_0`` or ``VR(C_RunMD)``.
 
     BASIC knows no capitals, so neither do names here. Nothing for what is no name of VR(0) to VR(15).
     """
+    return _cell(text) if len(text) <= LONGEST_NAME else None
+
+
+@lru_cache(maxsize=1024)
+def _cell(text: str) -> Cell | None:
     text = text.strip()
     if around := _AROUND.fullmatch(text):
         text = around[1] if not around[1].isdigit() else text
