@@ -26,7 +26,7 @@ __all__ = ["McapTrace", "TraceWriter", "read_trace"]
 # times.
 _SMALL = 16 << 20
 # Messages that wait because later chunks claim earlier times. More than this is a file to be sorted first.
-_LARGEST_WAIT = 1 << 30
+_LARGEST_WAIT = 384 << 20
 _COST = 250  # octets of memory for one waiting message beside its data
 
 

@@ -28,7 +28,8 @@ CHUNK_HEAD = struct.Struct("<QQQII")  # start, end, size when unpacked, its CRC-
 MESSAGE_FIXED = MESSAGE_HEAD.size - HEAD.size
 
 # A chunk is unpacked in memory, so its claim is a claim on memory. Recorders write chunks of 1 to 16 MiB.
-LARGEST_CHUNK = 256 << 20
+LARGEST_CHUNK = 64 << 20
+MOST_MESSAGES = 400_000  # of one chunk: each takes some 250 octets beside its data, however small it is
 _PIECE = 4 << 20
 
 Message = tuple[int, int, Channel, bytes]  # log time, rank by position in the file, channel, data
@@ -115,6 +116,10 @@ def messages(data: bytes, base: int, known: Definitions, *, cut: bool) -> list[M
             _, _, number, _, time, _ = MESSAGE_HEAD.unpack_from(data, at)
             channel = channels.get(number) or _nameless(number, channels)
             found.append((time, base + at, channel, data[at + MESSAGE_HEAD.size : following]))
+            if len(found) > MOST_MESSAGES:
+                raise InputError(
+                    f"a chunk of more than {MOST_MESSAGES} messages", cure="write smaller chunks"
+                )
         elif opcode in (SCHEMA, CHANNEL):
             known.learn(opcode, data[at + HEAD.size : following])
         at = following
