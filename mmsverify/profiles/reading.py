@@ -6,8 +6,6 @@ The keys are data; what is told of a mistake is made from them.
 from __future__ import annotations
 
 import difflib
-import json
-import tomllib
 from collections.abc import Iterable, Mapping
 from copy import deepcopy
 from pathlib import Path
@@ -20,6 +18,7 @@ from mmsverify.profiles.keys import Key
 from mmsverify.profiles.registry import KEYS, ROBOT_TABLE
 from mmsverify.profiles.robot import STANDARDIZED
 from mmsverify.profiles.shipped import found
+from mmsverify.profiles.text import shown, toml, toml_or_json
 
 
 def load_profile(profile: str | Path | None) -> dict[str, dict[str, Any]]:
@@ -104,7 +103,7 @@ def _checked(given: Mapping[str, Any], keys: Mapping[str, Key], where: str) -> d
 def _value(name: str, given: Mapping[str, Any], key: Key, where: str) -> Any:
     value = given.get(name, deepcopy(key.default))
     if not key.fits(value):
-        what = f"{name} = {value!r} is not allowed" if name in given else f"{name} is missing"
+        what = f"{name} = {shown(value)} is not allowed" if name in given else f"{name} is missing"
         raise ProfileError(what, place=where, cure=f"give {key.allows}{_near(value, key)}")
     if key.table:
         return _checked(value, key.entries, f"{where} {name}")
@@ -141,21 +140,17 @@ def _parsed(text: str, key: Key | None) -> Any:
     if key is not None and isinstance(key.default, str):
         return text
     try:
-        return tomllib.loads(f"value = {text}")["value"]
-    except tomllib.TOMLDecodeError:
-        pass
-    try:
-        return json.loads(text)
+        return toml_or_json(text)
     except ValueError:
         return text
 
 
 def _read(path: Path) -> dict[str, Any]:
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        return toml(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise ProfileError(
             f"cannot be read: {error.strerror}", place=str(path), cure="give a readable TOML file"
         ) from None
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+    except ValueError as error:  # what TOML, UTF-8 and the size of a profile refuse
         raise ProfileError(f"not valid TOML: {error}", place=str(path), cure="mend the syntax") from None
