@@ -118,10 +118,10 @@ def link(message: TraceMessage, wanted: str = "mms") -> tuple[str, str] | None:
         return None
     try:
         event = json.loads(message.data)
-        connection, what, role = event["connection"], event["event"], event["role"]
-    except (ValueError, KeyError, TypeError):
+        connection, what, role = str(event["connection"]), str(event["event"]), event["role"]
+    except (ValueError, KeyError, TypeError, RecursionError):
         return None
-    return (str(connection), str(what)) if role == wanted else None
+    return (connection, what) if role == wanted else None
 
 
 def _decoded(octets: bytes) -> Iterator[Pdu]:
