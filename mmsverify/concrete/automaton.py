@@ -45,6 +45,11 @@ class Automaton:
         self._numbers: dict[State, int] = {}
         self._explore()
         self.all: States = frozenset(range(len(self.states)))
+        # Kept with the automaton: a cache of the class would keep every automaton that ever was.
+        self.value = cache(self._value)
+        """What a variable without arguments holds, by the number of a state and its own name."""
+        self.broken = cache(self._broken)
+        """The conditions of a row that do not hold in a state, by its number and the row."""
 
     def _explore(self) -> None:
         for state in self.machine.start.states:
@@ -74,12 +79,8 @@ class Automaton:
             states = grown
         return states
 
-    @cache  # noqa: B019 - lives as long as the automaton, which is kept
-    def value(self, state: int, name: str) -> Value:
-        """What a variable without arguments holds."""
+    def _value(self, state: int, name: str) -> Value:
         return self.machine.layout.read(self.states[state])[name, ()]
 
-    @cache  # noqa: B019
-    def broken(self, state: int, row: Row) -> tuple[Conjunct, ...]:
-        """The conditions of a row that do not hold in a state."""
+    def _broken(self, state: int, row: Row) -> tuple[Conjunct, ...]:
         return tuple(c for c in row.guard if not self.machine.predicate(c.condition)(self.states[state]))
