@@ -161,8 +161,8 @@ def _refuse(cause: str, offset: int) -> NoReturn:
 
 
 def _integer(digits: str) -> Number:
-    """An integer; one too long for any cell becomes a float, and that is infinite."""
-    return int(digits) if len(digits) < 400 else float(digits)
+    """An integer; one too long for any cell becomes a float, infinite beyond 308 digits."""
+    return int(digits) if len(digits) < 300 else float(digits)
 
 
 def _fault(value: Any) -> str:
