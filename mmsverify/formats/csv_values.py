@@ -55,7 +55,7 @@ def nanoseconds(text: str, unit: str) -> int | None:
     Nothing for what is no time.
     """
     text = text.strip()
-    if len(text) > LONGEST:
+    if not 0 < len(text) <= LONGEST:
         return None
     if _NUMBER.fullmatch(text):
         value = Decimal(text.replace(",", ".")) * UNITS[unit]
