@@ -67,7 +67,9 @@ def _audit(
     findings = list(_findings(replay, Path(trace.path)))
     if trace.truncated and not replay.messages and not findings:
         raise InputError(
-            "cut off before the end of its first message", place=trace.path, cure="copy the recording again"
+            "cut off before the end of its first message",
+            place=trace.path,
+            cure="copy the recording again; one that still runs has its first messages after a second",
         )
     seconds = round(time.perf_counter() - begin, 3)
     return AuditedInput(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from mmsverify.errors import InputError, UsageError
@@ -72,7 +72,8 @@ def _print(text: str) -> None:
 def remark(text: str, *, quiet: bool) -> None:
     """One line on stderr for whoever watches."""
     if not quiet and sys.stderr is not None:  # print would take stdout for a stderr that is closed
-        print(printable(text), file=sys.stderr)
+        with suppress(OSError):  # nobody listens any more
+            print(printable(text), file=sys.stderr)
 
 
 @contextmanager

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from functools import partial
 from pathlib import Path
@@ -47,7 +48,7 @@ def proxy(
     The octets pass unchanged, also those that cannot be read. The trace is readable at any moment, and
     complete after Ctrl-C.
 
-    Exit status: 0; 2 if nothing could be recorded, or the trace could not be written to its end.
+    Exit status: 0; 2 if it could not begin, or the trace could not be written to its end.
     """
     if protocol not in _PORTS:
         raise UsageError(f"no protocol {protocol!r} here", place="--protocol", cure="mms or modbus")
@@ -56,13 +57,15 @@ def proxy(
     here, there = address(listen, "--listen"), address(to, "--to", _PORTS[protocol])
     if here == there:
         raise UsageError("is the controller itself", place="--listen", cure="name another port")
+    host = _host(there, name, _PORTS[protocol])
+    there = there.resolved()
     role: Role = "mms" if protocol == "mms" else "modbus"
     tell = partial(remark, quiet=quiet)
 
     def relay(log: Log) -> Source:
         return Relay(here, there, role, log, tell)
 
-    return _recorded(relay, output, _named(there, name), seconds, format)
+    return _recorded(relay, output, host, seconds, format)
 
 
 @record.command("modbus")
@@ -80,38 +83,44 @@ def modbus(
 
     The map says where each cell stands, and which addresses of signals to read.
 
-    Exit status: 0; 2 if nothing could be recorded, or the trace could not be written to its end.
+    Exit status: 0; 2 if it could not begin, or the trace could not be written to its end.
     """
     from mmsverify.recording import Poller, address, read_map
 
     there, points = address(server, "HOST:PORT", _PORTS["modbus"]), read_map(map)
+    host = _host(there, name or points.controller, _PORTS["modbus"])
+    there = there.resolved()
     tell = partial(remark, quiet=quiet)
 
     def poller(log: Log) -> Source:
         return Poller(there, points, log, tell)
 
-    return _recorded(poller, output, _named(there, name or points.controller), seconds, format)
+    return _recorded(poller, output, host, seconds, format)
 
 
-def _named(server: Address, name: str) -> dict[str, str]:
+def _host(server: Address, name: str, usual: int) -> str:
+    """What the server is called in the trace."""
+    if not server.port:
+        raise UsageError("nobody listens on port 0", place=str(server), cure="name the controller's port")
     if "/" in name:
         raise UsageError(f"{name!r} cannot name a channel", place="--name", cure="leave out the /")
-    return {f"{server.host}:{server.port}": name} if name else {}
+    host = server.host.replace("/", "")
+    return name or (host if server.port == usual else f"{host}:{server.port}")
 
 
 def _recorded(
-    begun: Callable[[Log], Source], output: Path, hosts: dict[str, str], seconds: float | None, format: str
+    begun: Callable[[Log], Source], output: Path, host: str, seconds: float | None, format: str
 ) -> int:
-    """Record into a new trace; a recording that exists is never overwritten."""
+    """Record into a new trace; what exists is never overwritten."""
     require_format(format, RECORD_FORMATS)
     require_writable(None)
     require_writable(output)
-    if output.exists() and output.is_file():
+    if os.path.lexists(output):
         raise UsageError("exists already", place=str(output), cure="name another file, or remove it")
     from mmsverify.formats.mcap_write import TraceWriter
     from mmsverify.recording import Log, run
 
-    log = Log(TraceWriter(output), hosts)
+    log = Log(TraceWriter(output, indexed=False), host)
     try:
         recorded = run(begun(log), log, seconds)
     except UsageError:  # it never began
@@ -119,6 +128,6 @@ def _recorded(
         raise
     emit(render_recording(str(output), recorded, format), None)
     if recorded.broken:
-        cure = "what was written before can be read"
+        cure = "all but its last second can be read"
         raise InputError(f"cannot be written: {recorded.broken}", place=str(output), cure=cure)
     return 0

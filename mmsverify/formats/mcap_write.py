@@ -10,24 +10,33 @@ from collections.abc import Mapping
 from types import TracebackType
 from typing import BinaryIO
 
-from mcap.writer import CompressionType, Writer
+from mcap.writer import CompressionType, IndexType, Writer
 
 from mmsverify.errors import UsageError
 from mmsverify.formats.trace import PROFILE_RECORD, Channel, Schema
+
+_MOST_CHANNELS = (1 << 16) - 1
 
 
 class TraceWriter:
     """Writes one recording; a context manager. Channels and schemas are registered when first used.
 
     ``target`` is a path or a binary stream; a stream stays open. Raises ``UsageError`` where the path cannot
-    be written.
+    be written. Without ``indexed`` no index is written at the end, nor kept in memory until then.
     """
 
-    def __init__(self, target: str | os.PathLike[str] | BinaryIO, *, compress: bool = True) -> None:
+    def __init__(
+        self,
+        target: str | os.PathLike[str] | BinaryIO,
+        *,
+        compress: bool = True,
+        indexed: bool = True,
+    ) -> None:
         self._owned = isinstance(target, (str, os.PathLike))
         self._stream = _create(target) if isinstance(target, (str, os.PathLike)) else target
         compression = CompressionType.ZSTD if compress else CompressionType.NONE
-        self._writer = Writer(self._stream, compression=compression)
+        indexes = IndexType.ALL if indexed else IndexType.NONE
+        self._writer = Writer(self._stream, compression=compression, index_types=indexes)
         self._writer.start(profile="", library="mmsverify")
         self._channels: dict[Channel, int] = {}
         self._schemas: dict[Schema, int] = {}
@@ -74,6 +83,9 @@ class TraceWriter:
         self.close()
 
     def _register(self, channel: Channel) -> int:
+        if len(self._channels) == _MOST_CHANNELS:
+            cause = f"more than {_MOST_CHANNELS:,} channels do not fit into one recording"
+            raise UsageError(cause, cure="write several")
         schema = self._register_schema(channel.schema) if channel.schema else 0
         number = self._writer.register_channel(
             channel.topic, channel.message_encoding, schema, dict(channel.metadata)

@@ -1,7 +1,7 @@
 """What is seen on the wire as it goes into a trace: connections, messages, samples, what could not be read.
 
-Nothing here may stop the traffic. A disk that is full or a fault of ours ends the recording, or loses a
-stretch of it, and is told; whoever passes the octets on goes on.
+Nothing here may stop the traffic. A disk that is full ends the recording, a fault of ours loses a stretch of
+it, and either is told; whoever passes the octets on goes on.
 """
 
 from __future__ import annotations
@@ -9,11 +9,11 @@ from __future__ import annotations
 import time
 from collections import Counter
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
-from functools import partial
+from dataclasses import dataclass
+from itertools import count
 from typing import Literal
 
-from mmsverify.formats.capture.conversation import Conversation, Names, channels, reader
+from mmsverify.formats.capture.conversation import Conversation, channels, reader
 from mmsverify.formats.capture.faults import Fault
 from mmsverify.formats.capture.link import Endpoint
 from mmsverify.formats.capture.tcp import Happening
@@ -23,6 +23,7 @@ from mmsverify.formats.vr import Number, encode
 
 _MOST_REASONS = 1000  # different things that could not be read, told one by one; the rest is a number
 _OTHERS = ("", "recording", "further reasons")
+_LETTER: Mapping[Role, str] = {"mms": "a", "modbus": "c"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,7 +51,10 @@ class Recorded:
 
 
 class Clock:
-    """Time in ns that never goes back, though the machine's clock may be set meanwhile."""
+    """Time in ns that never goes back, though the machine's clock may be set meanwhile.
+
+    While the machine sleeps it may stand still.
+    """
 
     def __init__(self) -> None:
         self._offset = time.time_ns() - time.monotonic_ns()
@@ -60,45 +64,76 @@ class Clock:
         return self._offset + time.monotonic_ns()
 
 
-@dataclass(slots=True)
-class Log:
-    """One trace in the making. ``hosts`` names servers, as ``import --name`` does."""
+class _Guarded:
+    """A trace's writer that fails once: then nothing more is written, and ``broken`` says why."""
 
-    writer: TraceWriter
-    hosts: Mapping[str, str] = field(default_factory=dict)
-    refused: int = 0
-    broken: str = ""
-    _samples: int = 0
-    _clock: Clock = field(default_factory=Clock)
-    _names: Names | None = None
-    _live: list[Live] = field(default_factory=list)
-    _ended: Counter[Role] = field(default_factory=Counter)
-    _connections: int = 0
-    _unread: Counter[tuple[str, str, str]] = field(default_factory=Counter)
+    def __init__(self, writer: TraceWriter) -> None:
+        self.broken = ""
+        self._writer = writer
+
+    def add(self, time: int, channel: Channel, data: bytes) -> None:
+        self._attempt(lambda: self._writer.add(time, channel, data))
+
+    def flush(self) -> None:
+        self._attempt(self._writer.flush)
+
+    def close(self) -> None:
+        self._attempt(self._writer.close)
+
+    def _attempt(self, write: Callable[[], object]) -> None:
+        if self.broken:
+            return
+        try:
+            write()
+        except Exception as error:  # whatever it is, it must not cost a plant its connections
+            told = getattr(error, "strerror", None) or str(error)
+            self.broken = told or type(error).__name__
+
+
+class Log:
+    """One trace in the making; ``host`` names the server in it."""
+
+    def __init__(self, writer: TraceWriter, host: str) -> None:
+        self.host = host
+        self.refused = 0
+        self.clock = Clock()
+        self._writer = _Guarded(writer)
+        self._samples = self._connections = 0
+        self._live: dict[str, Live] = {}
+        self._ended: Counter[Role] = Counter()
+        self._unread: Counter[tuple[str, str, str]] = Counter()
+
+    @property
+    def broken(self) -> str:
+        """Why nothing more is written; empty as long as all is well."""
+        return self._writer.broken
 
     def connection(self, role: Role, client: Endpoint, server: Endpoint) -> Live:
-        """A connection that opens now."""
-        self._names = self._names or Names(dict(self.hosts))
-        host, name = self._names.host(server, role), self._names.connection(role)
+        """A connection that opens now. It bears the first name that no other one has at the moment.
+
+        A recorder may run for years, and a trace has room for some ten thousand names.
+        """
+        numbered = (f"{_LETTER[role]}{number}" for number in count(1))
+        name = next(name for name in numbered if name not in self._live)
         talk = Conversation(
             role=role,
             server=server,
             name=name,
             reader=reader(role, aligned=True),
-            link=Channel.link(host),
-            channels=channels(role, host, name),
-            writer=self.writer,
+            link=Channel.link(self.host),
+            channels=channels(role, self.host, name),
+            writer=self._writer,
             report=lambda _, fault: self.note(name, fault),
+            verbatim=True,
         )
-        live = Live(self, talk, client)
+        live = self._live[name] = Live(self, talk, client)
         self._connections += 1
-        self._live.append(live)
         live.happens("open", "client")
         return live
 
     def sample(self, channel: Channel, cells: Mapping[str, Number]) -> None:
         """The VR cells of a controller as they are now."""
-        self.attempt(lambda: self.writer.add(self._clock.now(), channel, encode(cells)))
+        self._writer.add(self.clock.now(), channel, encode(cells))
         self._samples += not self.broken
 
     def note(self, connection: str, fault: Fault) -> None:
@@ -109,36 +144,22 @@ class Log:
 
     def forget(self, live: Live) -> None:
         """A connection is over: only its number of messages is kept."""
-        if live in self._live:
-            self._live.remove(live)
+        if self._live.pop(live.talk.name, None) is not None:
             self._ended[live.talk.role] += live.talk.messages
 
     def flush(self) -> None:
         """Make what was recorded readable."""
-        self.attempt(self.writer.flush)
+        self._writer.flush()
 
     def end(self) -> Recorded:
         """No more will come: what is left over of any message is told."""
-        for live in list(self._live):
-            self.attempt(partial(live.talk.finish, 0, self._clock.now()))
+        for live in list(self._live.values()):
+            live.talk.finish(0, self.clock.now())
             self.forget(live)
-        self.attempt(self.writer.close)
+        self._writer.close()
         counts = {"mms": self._ended["mms"], "modbus": self._ended["modbus"], "vr": self._samples}
-        undecoded = [Unread(*place, count) for place, count in self._unread.items()]
+        undecoded = [Unread(*place, times) for place, times in self._unread.items()]
         return Recorded(self._connections, counts, self.refused, undecoded, self.broken)
-
-    def now(self) -> int:
-        """The time now, in ns since 1970; it never goes back."""
-        return self._clock.now()
-
-    def attempt(self, write: Callable[[], object]) -> None:
-        """Write, unless that has failed before; a failure ends the recording and not the caller."""
-        if self.broken:
-            return
-        try:
-            write()
-        except OSError as error:
-            self.broken = error.strerror or str(error)
 
 
 @dataclass(slots=True, eq=False)
@@ -149,11 +170,6 @@ class Live:
     talk: Conversation
     client: Endpoint
     over: bool = False
-
-    @property
-    def host(self) -> str:
-        """The name of the server in the trace."""
-        return self.talk.link.metadata["name"]
 
     def data(self, sender: Sender, octets: bytes) -> None:
         """One side says something, now."""
@@ -171,9 +187,8 @@ class Live:
     ) -> None:
         """Write down what happens on the connection."""
         source = self.talk.server if sender == "server" else self.client
-        happening = Happening(kind, 0, self.log.now(), source, octets)
         try:
-            self.log.attempt(lambda: self.talk.take(happening))
+            self.talk.take(Happening(kind, 0, self.log.clock.now(), source, octets))
         except Exception as error:  # a fault of our readers must not cost a plant its connection
             self.log.note(self.talk.name, Fault("recording", f"{type(error).__name__}: {error}"))
-            self.log.attempt(lambda: self.talk.take(happening._replace(kind="gap", data=b"")))
+            self.talk.tell("gap", self.log.clock.now())

@@ -146,7 +146,7 @@ def _point(name: str, place: Any) -> Point:
     if odd := next((key for key in place if key not in {table, *(() if bits else ("type", "words"))}), ""):
         raise InputError(f"unknown key {odd}", place=where, cure=_POINT)
     kind, words = place.get("type", "uint16"), place.get("words", "big")
-    if kind not in TYPES:
+    if not isinstance(kind, str) or kind not in TYPES:
         raise InputError(f"no type {kind!r}", place=where, cure=f"one of {', '.join(TYPES)}")
     if words not in ("big", "little"):
         raise InputError(f"words = {words!r} is no order", place=where, cure='"big" or "little"')

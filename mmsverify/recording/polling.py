@@ -43,7 +43,8 @@ class Poller:
     log: Log
     tell: Callable[[str], None]
     _transaction: int = 0
-    _refused: set[Read] = field(default_factory=set)
+    _told: set[str] = field(default_factory=set)
+    _sampled: set[str] = field(default_factory=set)
 
     async def work(self) -> None:
         """Poll until cancelled. Raises ``UsageError`` where the controller cannot be reached at first."""
@@ -58,6 +59,7 @@ class Poller:
                 await self._polls(line)
                 return
             except (_Lost, OSError) as error:
+                self.log.note(line.live.talk.name, Fault("modbus", _reason(error)))
                 self.tell(f"{self.server}: {_reason(error)}; connecting again")
             finally:
                 await line.close()
@@ -71,8 +73,8 @@ class Poller:
         raise AssertionError("the pauses never end")
 
     async def _opened(self) -> _Line:
-        opening = asyncio.open_connection(*self.server)
-        reader, writer = await asyncio.wait_for(opening, _PATIENCE)
+        async with asyncio.timeout(_PATIENCE):  # not wait_for: in 3.11 it may swallow a cancellation
+            reader, writer = await asyncio.open_connection(*self.server)
         client = Endpoint(*writer.get_extra_info("sockname")[:2])
         live = self.log.connection("modbus", client, Endpoint(*self.server))
         return _Line(reader, writer, live)
@@ -81,7 +83,7 @@ class Poller:
         """Poll as long as there is a trace to write to."""
         loop = asyncio.get_running_loop()
         due = loop.time()
-        channel = Channel.vr(line.live.host, "polled")
+        channel = Channel.vr(self.log.host, "polled")
         while not self.log.broken:
             await self._poll(line, channel)
             due = max(due + self.map.period, loop.time())  # one that comes late does not make the next early
@@ -91,13 +93,24 @@ class Poller:
         found: dict[tuple[str, int], int] = {}
         for read in self.map.reads():
             found |= await self._asked(line, read, recorded=False)
-        cells = {
-            point.cell: value for point in self.map.points if (value := _value(point, found)) is not None
-        }
-        if cells:
+        values = {point.cell: self._value(line.live, point, found) for point in self.map.points}
+        cells = {cell: value for cell, value in values.items() if value is not None}
+        # A cell that is left out of a sample kept its value: that may be said only of one that never had any.
+        if cells and self._sampled <= cells.keys():
+            self._sampled |= cells.keys()
             self.log.sample(channel, cells)
         for read in self.map.signals:
             await self._asked(line, read, recorded=True)
+
+    def _value(self, live: Live, point: Point, found: Mapping[tuple[str, int], int]) -> Number | None:
+        words = [found.get((point.table, point.address + at)) for at in range(point.size)]
+        known = tuple(word for word in words if word is not None)
+        if len(known) < point.size:
+            return None
+        value = point.value(known)
+        if value is None:
+            self._amiss(live, f"{point.cell} holds no number")
+        return value
 
     async def _asked(self, line: _Line, read: Read, *, recorded: bool) -> Mapping[tuple[str, int], int]:
         """What stands at the addresses of one read; nothing where the controller refuses it."""
@@ -105,26 +118,42 @@ class Poller:
         data = struct.pack(">HH", read.address, read.count)
         asked = HEADER.pack(self._transaction, 0, 6, self.map.unit) + bytes([read.function]) + data
         try:
-            answer = await asyncio.wait_for(line.exchange(asked, recorded=recorded), self.map.timeout)
+            async with asyncio.timeout(self.map.timeout):
+                answer = await line.exchange(asked, recorded=recorded)
         except TimeoutError:
             raise _Lost(f"no answer to {read} in {self.map.timeout:g} s") from None
-        adu = _decoded(answer)
-        if adu.transaction != self._transaction:
-            raise _Lost(f"transaction {adu.transaction} answered, and {self._transaction} was asked")
+        adu = self._answer(answer, read)
         if adu.exception:
-            return self._refusal(line.live, read, adu)
-        wrong = modbus.unlike(modbus.Request(read.function, read.address, read.count), adu)
-        if adu.function != read.function or wrong:
-            raise _Lost(f"the answer to {read} has {wrong or f'function code {adu.function}'}")
+            code = adu.data[0] if adu.data else 0
+            self._amiss(line.live, f"{read} was refused, exception {code}")
+            return {}
+        if wrong := modbus.unlike(modbus.Request(read.function, read.address, read.count), adu):
+            raise _Lost(f"the answer to {read} has {wrong}")
         return {(read.table, read.address + i): word for i, word in enumerate(_words(read, adu.data[1:]))}
 
-    def _refusal(self, live: Live, read: Read, adu: modbus.Adu) -> Mapping[tuple[str, int], int]:
-        code = adu.data[0] if adu.data else 0
-        self.log.note(live.talk.name, Fault("modbus", f"{read} was refused, exception {code}"))
-        if read not in self._refused:
-            self._refused.add(read)
-            self.tell(f"{self.server}: {read} was refused, exception {code}")
-        return {}
+    def _answer(self, octets: bytes, read: Read) -> modbus.Adu:
+        """The answer to the last question; whatever else it is, the connection is of no more use."""
+        try:
+            adu = modbus.decode(octets)
+        except DecodeError as error:
+            raise _Lost(f"an answer that is no ADU: {error.cause}") from None
+        found = {
+            "transaction": adu.transaction,
+            "unit": adu.unit,
+            "function": adu.function & ~modbus.EXCEPTION,
+        }
+        wanted = {"transaction": self._transaction, "unit": self.map.unit, "function": int(read.function)}
+        for name, number in wanted.items():
+            if found[name] != number:
+                raise _Lost(f"{name} {found[name]} answers, and {number} was asked")
+        return adu
+
+    def _amiss(self, live: Live, what: str) -> None:
+        """Count it, and tell it once."""
+        self.log.note(live.talk.name, Fault("modbus", what))
+        if what not in self._told:
+            self._told.add(what)
+            self.tell(f"{self.server}: {what}")
 
 
 @dataclass(slots=True)
@@ -136,22 +165,30 @@ class _Line:
     live: Live
 
     async def exchange(self, asked: bytes, *, recorded: bool) -> bytes:
-        """Send one ADU and give the next one that comes; ``recorded``: both go into the trace."""
+        """Send one ADU and give the next one that comes; ``recorded``: both go into the trace.
+
+        What came of an answer is recorded even if the rest of it never comes.
+        """
         if recorded:
             self.live.data("client", asked)
         self.writer.write(asked)
         await self.writer.drain()
+        came = bytearray()
         try:
-            head = await self.reader.readexactly(HEADER.size - 1)
-            length = int.from_bytes(head[4:6])
-            rest = await self.reader.readexactly(min(length, modbus.LARGEST_PDU + 1))
-        except asyncio.IncompleteReadError as error:
-            if recorded and error.partial:
-                self.live.data("server", error.partial)
-            raise _Lost("the controller ended the connection") from None
-        if recorded:
-            self.live.data("server", head + rest)
-        return head + rest
+            wanted = HEADER.size - 1
+            while len(came) < wanted:
+                octets = await self.reader.read(wanted - len(came))
+                if not octets:
+                    raise _Lost("the controller ended the connection")
+                came += octets
+                if any(came[2:4]):
+                    raise _Lost(f"an answer that is no ADU: protocol {came[2:4].hex()}")
+                if len(came) == HEADER.size - 1:
+                    wanted += min(int.from_bytes(came[4:6]), modbus.LARGEST_PDU + 1)
+        finally:
+            if recorded and came:
+                self.live.data("server", bytes(came))
+        return bytes(came)
 
     async def close(self) -> None:
         self.live.end("close")
@@ -160,23 +197,10 @@ class _Line:
             await self.writer.wait_closed()
 
 
-def _decoded(octets: bytes) -> modbus.Adu:
-    try:
-        return modbus.decode(octets)
-    except DecodeError as error:
-        raise _Lost(f"an answer that is no ADU: {error.cause}") from None
-
-
 def _words(read: Read, data: bytes) -> list[int]:
     if read.function in modbus.BITS:
         return [data[at // 8] >> at % 8 & 1 for at in range(read.count)]
     return list(struct.unpack(f">{read.count}H", data))
-
-
-def _value(point: Point, found: Mapping[tuple[str, int], int]) -> Number | None:
-    words = [found.get((point.table, point.address + at)) for at in range(point.size)]
-    known = tuple(word for word in words if word is not None)
-    return point.value(known) if len(known) == point.size else None
 
 
 def _endless(pauses: tuple[float, ...]) -> Iterator[float]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import signal
+import socket
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from typing import NamedTuple, Protocol
@@ -12,6 +13,7 @@ from mmsverify.errors import UsageError
 from mmsverify.recording.log import Log, Recorded
 
 _EACH = 1.0  # seconds between two flushes: what a kill may cost
+_GRACE = 5.0  # seconds for a source to let go of its connections
 
 
 class Address(NamedTuple):
@@ -23,26 +25,33 @@ class Address(NamedTuple):
     def __str__(self) -> str:
         return f"[{self.host}]:{self.port}" if ":" in self.host else f"{self.host}:{self.port}"
 
+    def resolved(self) -> Address:
+        """The same with an address in numbers, so that no name has to be looked up later.
+
+        Raises ``UsageError`` for a name that nobody knows.
+        """
+        try:
+            found = socket.getaddrinfo(*self, type=socket.SOCK_STREAM)
+        except (OSError, UnicodeError) as error:
+            cause = f"is not known here: {getattr(error, 'strerror', None) or error}"
+            raise UsageError(cause, place=self.host[:80], cure="give an address") from None
+        return Address(*found[0][4][:2])
+
 
 def address(text: str, place: str, port: int | None = None) -> Address:
     """``HOST:PORT`` or ``[IPV6]:PORT``; without a port, ``port`` if there is one.
 
     Raises ``UsageError``, which names ``place``.
     """
-    cure = "write it like 10.0.0.5:502 or [::1]:502"
     host, colon, number = text.rpartition(":")
-    if text.startswith("[") and text.endswith("]"):
-        host, colon, number = text, "", ""
-    elif not colon:
-        host, number = text, ""
-    if host.startswith("[") and host.endswith("]"):
-        host = host[1:-1]
-    elif ":" in host:
-        raise UsageError(f"cannot read {text!r}", place=place, cure=cure)
-    if not number and port is not None and not colon:
-        number = str(port)
-    if not host or not (number.isascii() and number.isdigit()) or int(number) > 65535:
-        raise UsageError(f"cannot read {text!r}", place=place, cure=cure)
+    if not colon or text.endswith("]"):
+        host, number = text, "" if port is None else str(port)
+    bracketed = host.startswith("[") and host.endswith("]")
+    host = host[1:-1] if bracketed else host
+    digits = number.isascii() and number.isdigit() and len(number) <= 5
+    if not host or (":" in host and not bracketed) or not digits or int(number) > 65535:
+        cure = "write it like 10.0.0.5:502 or [::1]:502"
+        raise UsageError(f"cannot read {text[:80]!r}", place=place, cure=cure)
     return Address(host, int(number))
 
 
@@ -66,15 +75,19 @@ def run(source: Source, log: Log, seconds: float | None = None) -> Recorded:
 
 
 async def _until_stopped(source: Source, log: Log, seconds: float | None) -> None:
+    # A system that is out of sockets is told by the source, where it can be told: not by asyncio, at length.
+    asyncio.get_running_loop().set_exception_handler(lambda *_: None)
     stop = asyncio.Event()
+    work = asyncio.create_task(source.work())
+    others = [asyncio.create_task(stop.wait()), asyncio.create_task(_flushing(log))]
     with _stopping(stop):
-        tasks = [asyncio.create_task(work) for work in (source.work(), _flushing(log), stop.wait())]
-        done, rest = await asyncio.wait(tasks, timeout=seconds, return_when=asyncio.FIRST_COMPLETED)
-        for task in rest:
+        await asyncio.wait([work, others[0]], timeout=seconds, return_when=asyncio.FIRST_COMPLETED)
+        log.flush()
+        for task in [work, *others]:
             task.cancel()
-        await asyncio.gather(*rest, return_exceptions=True)
-    for task in done:
-        task.result()
+        await asyncio.wait([work, *others], timeout=_GRACE)
+    if work.done() and not work.cancelled():
+        work.result()
 
 
 async def _flushing(log: Log) -> None:
@@ -85,14 +98,20 @@ async def _flushing(log: Log) -> None:
 
 @contextmanager
 def _stopping(stop: asyncio.Event) -> Iterator[None]:
+    """Let a signal set ``stop``; the second one of its kind does what it does without us."""
     loop = asyncio.get_running_loop()
-    signals = (signal.SIGINT, signal.SIGTERM)
+    numbers = [getattr(signal, name) for name in ("SIGINT", "SIGTERM", "SIGHUP") if hasattr(signal, name)]
+
+    def stopped(number: signal.Signals) -> None:
+        stop.set()
+        loop.remove_signal_handler(number)
+
     with suppress(NotImplementedError, RuntimeError):  # no handlers on Windows, nor outside the main thread
-        for number in signals:
-            loop.add_signal_handler(number, stop.set)
+        for number in numbers:
+            loop.add_signal_handler(number, stopped, number)
     try:
         yield
     finally:
         with suppress(NotImplementedError, RuntimeError):
-            for number in signals:
+            for number in numbers:
                 loop.remove_signal_handler(number)

@@ -92,9 +92,8 @@ def test_a_message_after_the_end_of_its_connection_is_told_once(event: str, word
 
 def test_more_connections_than_may_be_served_are_an_error() -> None:
     line = opened(max_clients=2).link("open", "panel").link("open", "third").asks(1, name="third")
-    assert line.answers(1, name="third").asks(2, name="third").answers(2, name="third").told() == [
-        (2, "modbus.too-many")
-    ]
+    line.answers(1, name="third").asks(1).answers(1).asks(1, name="panel").answers(1, name="panel")
+    assert line.asks(2, name="third").answers(2, name="third").told() == [(2, "modbus.too-many")]
 
 
 def test_every_rule_has_been_broken_here() -> None:
@@ -266,10 +265,27 @@ def test_two_clients_may_wait_until_another_one_has_left() -> None:
     line = opened(max_clients=1).link("open", "panel").link("open", "third").asks(1, name="panel")
     line.link("close").answers(1, name="panel")
     assert line.told() == []
-    assert line.asks(1, name="third").answers(1, name="third").told() == [(2, "modbus.too-many")]
+    line.asks(1, name="third").answers(1, name="third").asks(2, name="panel").answers(2, name="panel")
+    assert line.told() == [(2, "modbus.too-many")]
+
+
+@pytest.mark.exercises("M-2.1-13")
+def test_a_client_whose_leaving_is_recorded_late_may_have_left_before() -> None:
+    line = opened(max_clients=1).asks(1).answers(1).link("open", "panel").asks(1, name="panel")
+    assert line.answers(1, name="panel").link("close").asks(2, name="panel").told() == []
 
 
 # Recordings.
+
+
+def test_the_text_as_written_refuses_nothing(tmp_path: Path) -> None:
+    path = tmp_path / "one.mcap"
+    with TraceWriter(path) as writer:
+        for number, sender in enumerate(("client", "server")):
+            pdu = b"\x01\xff\xff\x00\x08" if sender == "client" else b"\x01\x01\x00"
+            writer.add(number + 1, Channel.modbus("robot4", "c1", sender), adu(1, pdu))
+    told = {v: audit_traces([path], profile=None, model=None, variant=v) for v in ("as-written", "repaired")}
+    assert [[f.rule for f in told[v].findings] for v in told] == [[], ["access.beyond"]]
 
 
 def test_two_servers_in_one_recording_are_told_apart(tmp_path: Path) -> None:

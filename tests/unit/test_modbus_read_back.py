@@ -27,8 +27,8 @@ def test_a_register_that_is_read_back_as_another_value_is_a_note() -> None:
     [finding] = read(wrote(opened()), value=9).found
     assert (finding.rule, finding.severity) == (TOLD, "note")
     assert (finding.index, finding.related) == (4, (1, 3))
-    assert (finding.expected, finding.observed) == (("5=7",), "5=9")
-    assert finding.message.startswith("register 5 is read back as 9, but 7 was written last")
+    assert (finding.expected, finding.observed) == (("register 5=7",), "register 5=9")
+    assert finding.message.startswith("register 5 is read back as 9, but 7 was written last: a program may")
 
 
 def test_what_was_written_may_be_read_back() -> None:
@@ -58,7 +58,7 @@ def test_signals_are_compared_too(function: int, value: int, rest: bytes, answer
 def test_several_registers_are_compared_one_by_one() -> None:
     line = opened().asks(1, 0x10, 5, 2).answers(1, 0x10, echo(0x10, 5, 2))
     line.asks(2, 0x03, 4, 3).answers(2, 0x03, b"\x06\x00\x63\x00\x01\x00\x63")
-    assert [(f.rule, f.observed) for f in line.found] == [(TOLD, "6=99")]
+    assert [(f.rule, f.observed) for f in line.found] == [(TOLD, "register 6=99")]
 
 
 def test_another_write_explains_it() -> None:
@@ -93,10 +93,52 @@ def test_a_write_that_was_refused_wrote_nothing() -> None:
     assert read(line, value=9).told() == []
 
 
-def test_units_are_devices_of_their_own() -> None:
+def test_units_are_told_apart_where_that_is_safe() -> None:
     line = opened().asks(1, 0x06, 5, 7, unit=1).answers(1, 0x06, echo(0x06, 5, 7), unit=1)
     line.asks(2, 0x03, 5, 1, unit=2).answers(2, 0x03, b"\x02\x00\x63", unit=2)
     assert line.told() == []
+    line = wrote(opened()).asks(3, 0x06, 5, 9, unit=255).answers(3, 0x06, echo(0x06, 5, 9), unit=255)
+    assert read(line, 4, value=9).told() == []
+
+
+@pytest.mark.parametrize("function", [0x16, 0x17])
+def test_another_function_code_may_have_written_anything(function: int) -> None:
+    asked = wrote(opened()).asks(3, function, 0, 0)
+    assert read(asked.answers(3, function), 4, value=9).told() == []
+    late = wrote(opened().link("open", "other").asks(1, function, 0, 0, name="other"))
+    assert read(late.answers(1, function, name="other"), 4, value=9).told() == []
+
+
+def test_a_write_that_was_never_answered_may_come_at_any_time() -> None:
+    line = opened().link("open", "other").asks(1, 0x06, 5, 9, name="other").link("reset", "other")
+    assert read(wrote(line), 4, value=9).told() == []
+    line = opened().link("open", "other").asks(1, 0x06, 900, 9, name="other").link("reset", "other")
+    assert [rule for _, rule in read(wrote(line), 4, value=9).told()] == [TOLD]
+
+
+def test_an_answer_to_a_write_that_is_not_recorded_may_have_written_anything() -> None:
+    line = wrote(opened().link("open", "other").link("gap", "other"))
+    assert read(line.answers(9, 0x06, echo(0x06, 5, 9), "other"), value=9).told() == []
+    line = wrote(opened()).answers(9, 0x06, echo(0x06, 5, 9))
+    assert [rule for _, rule in read(line, value=9).told()] == ["modbus.unasked"]
+
+
+def test_what_is_amiss_is_told_alone() -> None:
+    line = wrote(opened(), 1).asks(3, 0x06, 5, 9).answers(3, 0x06, echo(0x06, 5, 9), unit=2)
+    assert [rule for _, rule in read(line, 4, value=7).told()] == ["modbus.unit"]
+    line = wrote(opened().link("open", "other")).link("close", "other").asks(1, 0x06, 5, 9, name="other")
+    assert [rule for _, rule in read(line, 4, value=9).told()] == ["modbus.closed"]
+
+
+def test_writes_to_different_addresses_are_not_in_each_others_way() -> None:
+    line = opened().asks(1, 0x06, 5, 7).asks(2, 0x06, 6, 7).answers(1, 0x06, echo(0x06, 5, 7))
+    assert [rule for _, rule in read(line.answers(2, 0x06, echo(0x06, 6, 7)), 3, value=9).told()] == [TOLD]
+
+
+def test_many_values_of_one_answer_are_one_note() -> None:
+    line = opened().asks(1, 0x10, 5, 2).answers(1, 0x10, echo(0x10, 5, 2))
+    [finding] = line.asks(2, 0x03, 5, 2).answers(2, 0x03, b"\x04" + bytes(4)).found
+    assert "(and 1 more with it)" in finding.message
 
 
 def test_inputs_are_not_what_was_written() -> None:
@@ -112,19 +154,31 @@ steps = st.lists(
 
 
 def bits(values: list[bool]) -> bytes:
-    return sum(value << at for at, value in enumerate(values)).to_bytes(1)
+    return sum(value << at for at, value in enumerate(values)).to_bytes(2, "little")
+
+
+def last(said: list[tuple[bool, int, int, list[bool]]], changed: bool) -> list[object]:
+    """What is told of a server that keeps its values, or changes each by itself before the last read."""
+    held, memory, told = [False] * 16, Memory(), list[object]()
+    for number, (write, address, count, values) in enumerate([*said, (False, 0, 10, [])]):
+        request = Request(Function.WRITE_MULTIPLE_COILS if write else Function.READ_COILS, address, count)
+        if write:
+            memory.ask(2 * number, request)
+            held[address : address + count] = values[:count]
+            memory.accept(2 * number, Adu(1, 1, 15, bytes(5) + bits(values[:count])), 2 * number + 1)
+        else:
+            shown = held[address : address + count]
+            shown = [not value for value in shown] if changed and number == len(said) else shown
+            told += memory.read(request, Adu(1, 1, 1, b"\x01" + bits(shown)), 2 * number)
+    return told
 
 
 @given(steps)
 def test_a_server_that_keeps_its_values_is_never_told(said: list[tuple[bool, int, int, list[bool]]]) -> None:
-    held, memory = [False] * 16, Memory()
-    for number, (write, address, count, values) in enumerate(said):
-        if write:
-            request = Request(Function.WRITE_MULTIPLE_COILS, address, count)
-            memory.ask(request)
-            held[address : address + count] = values[:count]
-            memory.accept(request, bytes(5) + bits(values[:count]), 2 * number, 2 * number + 1)
-        else:
-            request = Request(Function.READ_COILS, address, count)
-            answer = Adu(1, 1, 1, b"\x01" + bits(held[address : address + count]))
-            assert list(memory.read(request, answer, 2 * number)) == []
+    assert last(said, changed=False) == []
+
+
+@given(steps)
+def test_every_written_value_that_is_changed_is_told(said: list[tuple[bool, int, int, list[bool]]]) -> None:
+    written = {at for write, address, count, _ in said if write for at in range(address, address + count)}
+    assert len(last(said, changed=True)) == len(written)

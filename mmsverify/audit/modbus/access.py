@@ -46,11 +46,14 @@ class Access:
         self._refusing: list[Row] = [
             row for row in model.actions if row.on.service == "request" and row.answer == MINUS
         ]
+        # The text as written refuses nothing: there, these are empty.
         sorts = {p.name: p.of for row in self._refusing for p in row.on.parameters}
-        self._functions, self._points = _by_word(sorts["function"]), _by_word(sorts["points"])
+        self._functions, self._points = (_by_word(sorts.get(name)) for name in ("function", "points"))
 
     def refusal(self, request: Request, points: str) -> Conjunct | None:
         """The condition by which a request must be refused, if any."""
+        if not self._refusing:
+            return None
         given: dict[str, Binding] = {
             "function": self._functions[f"0x{request.function:02X}"],
             "points": self._points[points],
@@ -63,5 +66,4 @@ class Access:
 
 def _by_word(sort: object) -> dict[str, Enumeration]:
     """The members of an enumeration by the words that they print."""
-    assert isinstance(sort, EnumSort)
-    return {str(member.value): member for member in sort.members}
+    return {str(member.value): member for member in sort.members} if isinstance(sort, EnumSort) else {}

@@ -56,10 +56,10 @@ MODBUS_RULES: Mapping[str, Rule] = {
         ),
         rule(
             "modbus.read-back",
-            "{what} {address} is read back as {found}, but {written} was written last by a message: "
-            "a program may have, or a client that is not in the recording",
+            "{what} {address} is read back as {found}, but {written} was written last{more}: a program may "
+            "have written it since, or a client that is not in the recording",
             "M-2.2-8",
-            severity="note", expects=("{address}={written}",), observed="{address}={found}",
+            severity="note", expects=("{what} {address}={written}",), observed="{what} {address}={found}",
         ),
         rule(
             "modbus.closed",

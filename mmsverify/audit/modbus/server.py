@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
@@ -27,7 +26,6 @@ class Asked:
     """A request that waits: its message and what it says.
 
     ``passed``: a later one has been answered. ``lost``: its answer may be missing in the recording.
-    ``contested``: another one that writes was under way meanwhile, and which was performed last is not known.
     """
 
     message: TraceMessage
@@ -35,12 +33,11 @@ class Asked:
     request: Request | None
     passed: bool = False
     lost: bool = False
-    contested: bool = False
 
     @property
     def writes(self) -> bool:
-        """Whether it asks for a change."""
-        return self.request is not None and writes(self.request)
+        """Whether it asks for a change, or may."""
+        return self.request is None or bool(self.request.amiss) or writes(self.request)
 
     @property
     def overdue(self) -> bool:
@@ -52,13 +49,15 @@ class Asked:
 class Connection:
     """What is known of one connection.
 
-    ``state``: "" where its opening is not in the recording, else "open", or how it ended. ``blind``: requests
+    ``state``: "" where its opening is not in the recording, else "open", or how it ended; ``number`` counts
+    the openings. ``blind``: requests
     may be missing, so that an answer may be to one of them. ``excess``: it was opened while as many as may be
     served were open, and has not been answered since.
     """
 
     state: str = ""
     blind: bool = True
+    number: int = -1
     told_closed: bool = False
     excess: TraceMessage | None = None
     asked: dict[int, Asked] = field(default_factory=dict)
@@ -70,6 +69,18 @@ class Connection:
             asked.lost = True
 
 
+@dataclass(slots=True)
+class Crowd:
+    """More connections than may be served at once seem to be, since ``at``.
+
+    By their numbers: ``proven`` are those that certainly were, ``others`` those of which it may yet show.
+    """
+
+    at: TraceMessage
+    others: set[int]
+    proven: set[int]
+
+
 class Server:
     """The replay of one server's messages."""
 
@@ -77,7 +88,9 @@ class Server:
         self._place, self._access, self._plan = place, access, plan
         self._connections: dict[str, Connection] = {}
         self._most = plan.profile["max_clients"]
-        self._memory = defaultdict[int, Memory](Memory)  # by unit
+        self._memory = Memory()
+        self._opened = 0
+        self._crowds: list[Crowd] = []
         self._strays: set[int] = set()
         self._overdue: list[Asked] = []
         self._overtakes = False
@@ -89,15 +102,17 @@ class Server:
         connection = self._connections.setdefault(name, Connection())
         if event == "gap":
             connection.lose()
-            self._memory.clear()
+            self._memory.lose()
             return
         self._pass_over(connection)
+        self._leave(connection)
         if event == "open":
             served = sum(
                 other.state == "open" for other in self._connections.values() if other is not connection
             )
             excess = message if served >= self._most else None
-            self._connections[name] = Connection("open", blind=False, excess=excess)
+            self._opened += 1
+            self._connections[name] = Connection("open", blind=False, number=self._opened, excess=excess)
         else:
             self._connections[name] = Connection("closed" if event == "close" else "reset", blind=False)
 
@@ -113,9 +128,17 @@ class Server:
             overdue = (asked for asked in self._overdue if asked.adu.transaction not in self._strays)
             yield from (self._found(asked.message, "modbus.unanswered") for asked in overdue)
 
+    def _leave(self, connection: Connection) -> None:
+        """A connection is over: of whether it was served at some time nothing more will show."""
+        for crowd in self._crowds:
+            crowd.others.discard(connection.number)
+        self._crowds = [c for c in self._crowds if len(c.proven) + len(c.others) > self._most]
+
     def _pass_over(self, connection: Connection) -> None:
         """The requests of a connection are not answered any more."""
         self._overdue += [asked for asked in connection.asked.values() if asked.overdue]
+        for asked in connection.asked.values():
+            self._memory.give_up(asked.message.index)
 
     # Messages.
 
@@ -124,6 +147,7 @@ class Server:
         sender = message.metadata.get("sender", "client")
         connection = self._connections.setdefault(message.metadata.get("connection", ""), Connection())
         if connection.state in ("closed", "reset"):
+            self._memory.lose()
             if not connection.told_closed:
                 connection.told_closed = True
                 yield self._found(message, "modbus.closed", sender=sender, event=connection.state)
@@ -132,37 +156,51 @@ class Server:
             adu = modbus.decode(message.data)
         except DecodeError as error:
             connection.lose()  # whatever it was, it may have been a request, or an answer
-            self._memory.clear()
+            self._memory.lose()
             yield self._found(message, "modbus.undecodable", cause=error.cause)
             return
         if sender == "client":
             self._asked(connection, Asked(message, adu, modbus.request(adu)))
             return
-        if connection.excess is not None:
-            at, connection.excess = connection.excess, None
-            # Clients are accepted in the order in which they came: it is served once another one has left.
-            count = sum(c.state == "open" and c.excess is None for c in self._connections.values())
-            if count > self._most:
-                yield self._found(at, "modbus.too-many", count=count, most=self._most)
+        yield from self._served(connection)
         yield from self._answered(connection, adu, message)
 
+    def _served(self, connection: Connection) -> Iterator[Finding]:
+        """The server says something on a connection: it holds a socket for it.
+
+        Clients are accepted in the order in which they came: one is served once another one has left. That
+        others have not left is certain only when they are answered later: a client's leaving may be
+        recorded late.
+        """
+        for crowd in self._crowds:
+            if connection.number in crowd.others:
+                crowd.others.discard(connection.number)
+                crowd.proven.add(connection.number)
+        if connection.excess is not None:
+            at, connection.excess = connection.excess, None
+            held = (c for c in self._connections.values() if c.state == "open" and c.excess is None)
+            others = {c.number for c in held} - {connection.number}
+            if len(others) >= self._most:
+                self._crowds.append(Crowd(at, others, {connection.number}))
+        for crowd in [crowd for crowd in self._crowds if len(crowd.proven) > self._most]:
+            self._crowds.remove(crowd)
+            yield self._found(crowd.at, "modbus.too-many", count=len(crowd.proven), most=self._most)
+
     def _asked(self, connection: Connection, asked: Asked) -> None:
-        again = connection.asked.pop(
-            asked.adu.transaction, None
-        )  # its first request is not answered any more
-        if again is not None and again.overdue:
-            self._overdue.append(again)
-        if asked.writes and asked.request is not None:
-            self._memory[asked.adu.unit].ask(asked.request)
-            waiting = (other for each in self._connections.values() for other in each.asked.values())
-            for other in waiting:
-                asked.contested |= other.writes
-                other.contested |= other.writes
+        # The first request of a transaction that is used again is not answered any more.
+        again = connection.asked.pop(asked.adu.transaction, None)
+        if again is not None:
+            self._memory.give_up(again.message.index)
+            self._overdue += [again] if again.overdue else []
+        if asked.writes:
+            sound = asked.request is not None and not asked.request.amiss
+            self._memory.ask(asked.message.index, asked.request if sound else None)
         connection.asked[asked.adu.transaction] = asked
 
     def _answered(self, connection: Connection, adu: Adu, message: TraceMessage) -> Iterator[Finding]:
         asked = connection.asked.pop(adu.transaction, None)
         if asked is None:
+            self._memory.lose()
             if not connection.blind:
                 self._strays.add(adu.transaction)  # it may have been meant for another connection
                 yield self._found(message, "modbus.unasked", transaction=adu.transaction)
@@ -171,9 +209,11 @@ class Server:
         self._overtakes = self._overtakes or asked.passed
         for other in connection.asked.values():
             other.passed = other.passed or other.message.index < asked.message.index
-        for breach in self._judged(asked, adu):
-            yield of_rule(self._place, message, MODBUS_RULES[breach.rule], breach)
-        yield from self._accessed(asked, adu, message)
+        wrong = list(self._judged(asked, adu))
+        yield from (of_rule(self._place, message, MODBUS_RULES[each.rule], each) for each in wrong)
+        told = list(self._accessed(asked, adu, message))
+        yield from told
+        yield from self._remembered(asked, adu, message, amiss=bool(wrong or told))
 
     def _judged(self, asked: Asked, adu: Adu) -> Iterator[Breach]:
         """An answer against its request, the access apart; the first thing that is wrong."""
@@ -207,27 +247,35 @@ class Server:
                 yield self._found(message, "modbus.refused", code=adu.data[0], related=(asked.message.index,))
         elif refusal is not None:
             yield self._wrongly_accepted(asked, asked.request, message, refusal)
-        elif not modbus.unlike(asked.request, adu):
-            yield from self._remembered(asked, asked.request, adu, message)
 
-    def _remembered(
+    def _remembered(self, asked: Asked, adu: Adu, message: TraceMessage, *, amiss: bool) -> Iterator[Finding]:
+        """Keep what was written; tell what is read back as something else. What is amiss teaches nothing."""
+        number = asked.message.index
+        if amiss:
+            self._memory.give_up(number)
+            self._memory.lose()
+        elif asked.writes and (adu.exception or asked.request is None):
+            self._memory.refuse(number)
+        elif asked.writes:
+            self._memory.accept(number, asked.adu, message.index)
+        elif asked.request is not None and not adu.exception:
+            yield from self._read_back(asked, asked.request, adu, message)
+
+    def _read_back(
         self, asked: Asked, request: Request, adu: Adu, message: TraceMessage
     ) -> Iterator[Finding]:
-        """Keep what was written; tell what is read back as something else."""
-        memory = self._memory[adu.unit]
-        if asked.writes:
-            if not (asked.contested or asked.lost):
-                memory.accept(request, asked.adu.data, asked.message.index, message.index)
-            return
-        for (bit, address), value, written in memory.read(request, adu, asked.message.index):
+        found = self._memory.read(request, adu, asked.message.index)
+        for (bit, address), value, written in found[:1]:
+            more = f" (and {len(found) - 1} more with it)" if found[1:] else ""
             yield self._found(
                 message,
                 "modbus.read-back",
                 related=(written.asked, asked.message.index),
-                what="signal at" if bit else "register",
+                what="coil" if bit else "register",
                 address=address,
                 found=value,
                 written=written.value,
+                more=more,
             )
 
     def _wrongly_accepted(
