@@ -55,7 +55,7 @@ def rows(path: Path) -> list[tuple[str, bytes | str]]:
 async def relaying(path: Path, server: int, role: Role = "modbus") -> AsyncIterator[Recording]:
     """A relay to a port of this machine; the trace is whole at the end."""
     made = Recording(path)
-    log = Log(TraceWriter(path), {f"{HOST}:{server}": "cell7"})
+    log = Log(TraceWriter(path, indexed=False), "cell7")
     relay = Relay(Address(HOST, 0), Address(HOST, server), role, log, made.told.append)
     work = asyncio.create_task(relay.work())
     made.port = await told_port(made.told)

@@ -186,6 +186,8 @@ class Live:
         self, kind: Literal["open", "data", "close", "reset"], sender: Sender, octets: bytes = b""
     ) -> None:
         """Write down what happens on the connection."""
+        if self.log.broken:
+            return
         source = self.talk.server if sender == "server" else self.client
         try:
             self.talk.take(Happening(kind, 0, self.log.clock.now(), source, octets))

@@ -305,8 +305,39 @@ def test_a_capture_that_breaks_off_is_read_to_the_break(tmp_path: Path) -> None:
 )
 def test_modbus_is_found_on_any_port_by_its_first_octets(first: str, found: bool, tmp_path: Path) -> None:
     talk = Talk(server=("10.0.0.5", 1502)).shake()
-    talk.say(("client", bytes.fromhex(first)), ("server", bytes.fromhex("000100000007ff040400010002")))
+    talk.say(("client", bytes.fromhex(first)), ("server", b"hello"))
     inputs, rows = imported(tmp_path, captured(talk.close()))
-    assert inputs[0].pdus["modbus"] == (2 if found else 0)
-    assert inputs[0].undecoded == []
+    assert inputs[0].pdus["modbus"] == found
+    assert len(inputs[0].undecoded) == found
     assert ("/10.0.0.5:1502/link", "c1 open modbus") in rows if found else rows == []
+
+
+ASK, ANSWER = bytes.fromhex("000000000006010300000002"), bytes.fromhex("00000000000701030400010002")
+
+
+@pytest.mark.parametrize("shaken", [True, False])
+@pytest.mark.parametrize(
+    "turns",
+    [
+        [("client", ASK * 2), ("server", ANSWER * 2)],
+        [("client", ASK[:7]), ("client", ASK[7:]), ("server", ANSWER)],
+        [("server", ANSWER), ("client", ASK), ("server", ANSWER)],
+        [("server", bytes.fromhex("000000000006011000000002")), ("client", ASK), ("server", ANSWER)],
+        [("server", bytes.fromhex("000000000003018302")), ("client", ASK), ("server", ANSWER)],
+        [("client", bytes.fromhex("000000000005012b0e0100")), ("server", b"?"), ("client", ASK)],
+    ],
+)
+def test_modbus_is_found_wherever_a_capture_begins(
+    turns: list[tuple[str, bytes]], shaken: bool, tmp_path: Path
+) -> None:
+    talk = Talk(client=("10.0.0.9", 40000), server=("10.0.0.5", 50200))
+    talk = talk.shake() if shaken else talk
+    inputs, rows = imported(tmp_path, captured(talk.say(*turns)))
+    sides = {topic for topic, _ in rows}
+    said = b"".join(data for topic, data in rows if isinstance(data, bytes) and topic.endswith("client"))
+    asked = b"".join(data for side, data in turns if side == "client")
+    assert sides - {"/10.0.0.5:50200/link"} <= {
+        f"/10.0.0.5:50200/modbus/c1/{s}" for s in ("client", "server")
+    }
+    assert said == asked
+    assert inputs[0].pdus["modbus"] + len(inputs[0].undecoded) >= len(turns) - 1

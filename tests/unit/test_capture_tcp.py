@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from mmsverify.formats.capture.link import Endpoint, Segment
-from mmsverify.formats.capture.tcp import Connections, Happening
+from mmsverify.formats.capture.tcp import Connection, Connections, Happening
 
 CLIENT, SERVER = Endpoint("10.0.0.9", 40000), Endpoint("10.0.0.5", 102)
 ISN = (1 << 32) - 5  # sequence numbers wrap early
@@ -189,3 +189,40 @@ def test_octets_behind_a_hole_do_not_pile_up(count: int) -> None:
     segments = [segment(3 + i, 10 + 2 * i, b"x") for i in range(count)]
     found = happenings(shaken(*segments), end=False)
     assert len(found) > count
+
+
+def heard(segments: list[Segment], monkeypatch: pytest.MonkeyPatch, *, short: bool) -> list[Happening]:
+    """What a capture's segments bring about, by the short way for plain ones or without it."""
+    with monkeypatch.context() as patch:
+        if not short:
+            patch.setattr(Connection, "_plain", lambda *_: False)
+        connections = Connections()
+        told = [happening for each in segments for _, happening in connections.feed(each)]
+        return told + [happening for _, happening in connections.end()]
+
+
+@pytest.mark.parametrize("seed", range(150))
+def test_the_short_way_for_plain_segments_tells_the_same(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Conversations with few or many losses, repetitions, overlaps and swaps; some begin in the middle."""
+    rare = random.Random(seed)
+    odds = rare.choice([0.002, 0.02, 0.2])
+    at, made = {False: 0, True: 0}, list[Segment]()
+    for number in range(900):
+        server = rare.random() < 0.5
+        size = rare.choice([0, 1, 5, 400])
+        back = at[not server]
+        begin = at[server] - (rare.randrange(6) if rare.random() < odds else 0)
+        flags = "F" if rare.random() < odds / 40 else ""
+        made.append(
+            segment(
+                number, max(begin, 0), bytes([number % 251]) * size, back=back, server=server, flags=flags
+            )
+        )
+        at[server] += size
+    if seed % 2:
+        made = [segment(0, flags="S"), segment(0, server=True, flags="S", back=0), *made]
+    kept = [each for each in made if rare.random() > odds]
+    for place in range(len(kept) - 1):
+        if rare.random() < odds:
+            kept[place], kept[place + 1] = kept[place + 1], kept[place]
+    assert heard(kept, monkeypatch, short=True) == heard(kept, monkeypatch, short=False)

@@ -78,7 +78,7 @@ async def polled(
 ) -> Polled:
     path, told = tmp_path / "t.mcap", list[str]()
     async with serving(controller.serve) as port:
-        log = Log(TraceWriter(path), {f"{HOST}:{port}": "press"})
+        log = Log(TraceWriter(path), "press")
         work = asyncio.create_task(Poller(Address(HOST, port), points, log, told.append).work())
         await meanwhile()
         work.cancel()
@@ -132,7 +132,10 @@ def test_a_read_that_is_refused_is_told_once_and_the_others_go_on(tmp_path: Path
         (lambda _: b"", "ended the connection"),
         (lambda answer: b"\xff" + answer[1:], "transaction"),
         (lambda answer: answer[:2] + b"\x01" + answer[3:], "no ADU"),
-        (lambda answer: answer[:7] + b"\x04" + answer[8:], "function code 4"),
+        (lambda answer: answer[:7] + b"\x04" + answer[8:], "function 4 answers"),
+        (lambda answer: answer[:7] + b"\x84\x02", "no answer to holding 0"),
+        (lambda answer: answer[:6] + b"\x09" + answer[7:], "unit 9 answers"),
+        (lambda _: b"HTTP/1.0 400 Bad Request", "protocol 5450"),
         (lambda answer: answer[:8] + b"\x04" + answer[9:], "byte count 4"),
         (lambda answer: answer[:5] + b"\x63" + answer[6:], "no answer to holding 0"),
     ],
@@ -149,7 +152,8 @@ def test_after_a_wrong_answer_the_connection_is_made_anew(
     controller.change = once
     made = run(tmp_path, controller, PollMap((MODE,), (), period=0.05, timeout=0.1), seconds=0.9)
     assert told in made.told[1]
-    assert made.events == ["c1 open", "c1 close", "c2 open", "c2 close"]
+    assert [told in each.reason for each in made.recorded.undecoded] == [True]
+    assert made.events == ["c1 open", "c1 close"] * 2
     assert made.samples
 
 
@@ -162,3 +166,48 @@ def test_a_controller_that_cannot_be_reached_is_told(
     assert main(["record", "modbus", f"{HOST}:1", "--map", str(points), "-o", str(output)]) == 2
     assert capsys.readouterr().err.startswith(f"mmsverify: {HOST}:1: cannot be reached: ")
     assert not output.exists()
+
+
+def test_a_cell_that_cannot_be_read_any_more_is_not_said_to_have_kept_its_value(tmp_path: Path) -> None:
+    controller = Controller()
+    number = Point("C_Cmd", "holding", 2, "float32")
+    controller.registers[2:4] = struct.unpack(">HH", struct.pack(">f", 5.0))
+
+    async def breaks() -> None:
+        await asyncio.sleep(0.1)
+        controller.registers[2] = 0x7FC0  # no number
+        await asyncio.sleep(0.2)
+
+    points = PollMap((MODE, number), (), period=0.02)
+    made = asyncio.run(polled(tmp_path, controller, points, breaks))
+    assert made.samples
+    assert all(sample == {"C_RunMD": 0, "C_Cmd": 5} for sample in made.samples)
+    assert [each.reason for each in made.recorded.undecoded] == ["C_Cmd holds no number"]
+    assert len([line for line in made.told if "no number" in line]) == 1
+
+
+@pytest.mark.parametrize("cut", range(1, 12))
+def test_what_came_of_an_answer_is_recorded(cut: int, tmp_path: Path) -> None:
+    controller = Controller()
+    controller.change = lambda answer: answer[:cut]
+
+    async def closes(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        writer.write(controller.answer(await reader.readexactly(12))[:cut])
+        writer.close()
+
+    controller.serve = closes  # type: ignore[method-assign]
+    points = PollMap((), (Read("holding", 0, 2),), period=0.05)
+    made = run(tmp_path, controller, points)
+    said = [data for topic, data in rows(made.path) if topic.endswith("/server")]
+    assert said[0] == controller.answer(bytes.fromhex("000100000006010300000002"))[:cut]
+
+
+@pytest.mark.parametrize("ticks", range(0, 60, 2))
+def test_a_poller_ends_whenever_it_is_told_to(ticks: int, tmp_path: Path) -> None:
+    async def told_at() -> None:
+        for _ in range(ticks):
+            await asyncio.sleep(0)
+
+    points = PollMap((MODE,), (Read("coil", 0, 4),), period=0.001)
+    made = asyncio.run(asyncio.wait_for(polled(tmp_path, Controller(), points, told_at), 3))
+    assert made.recorded.broken == ""

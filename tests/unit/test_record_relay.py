@@ -3,27 +3,17 @@
 from __future__ import annotations
 
 import asyncio
-import errno
-import io
-import os
 import random
-import signal
 import socket
 import struct
-import subprocess
-import sys
-import time
 from pathlib import Path
-from typing import Any
 
 import pytest
 from capture_wire import CC, CR, STATUS, STATUS_ANSWER, dt
-from wire import HOST, relaying, rows, serving
+from wire import HOST, relaying, serving, told_port
 
-from mmsverify.cli import main
-from mmsverify.formats.capture.link import Endpoint
-from mmsverify.formats.mcap import TraceWriter, read_trace
-from mmsverify.recording import Log
+from mmsverify.formats.mcap import TraceWriter
+from mmsverify.recording import Address, Log, Relay
 
 ASKED = bytes.fromhex("000100000006010100000008")
 ANSWERED = bytes.fromhex("000100000004010101ff")
@@ -65,7 +55,7 @@ def test_a_conversation_is_recorded_between_open_and_close(tmp_path: Path) -> No
     asyncio.run(talk())
 
 
-def test_what_cannot_be_read_passes_unchanged_and_is_told_as_a_gap(tmp_path: Path) -> None:
+def test_what_cannot_be_read_passes_unchanged_and_is_recorded(tmp_path: Path) -> None:
     garbage = random.Random(7).randbytes(200_000)
 
     async def talk() -> None:
@@ -74,7 +64,8 @@ def test_what_cannot_be_read_passes_unchanged_and_is_told_as_a_gap(tmp_path: Pat
             writer.write(garbage)
             assert await reader.readexactly(len(garbage)) == garbage
             writer.close()
-        assert (LINK, "c1 gap") in made.rows
+        said = b"".join(data for topic, data in made.rows if topic == CLIENT and isinstance(data, bytes))
+        assert said == garbage
         assert made.recorded is not None
         assert {each.layer for each in made.recorded.undecoded} == {"modbus"}
 
@@ -177,172 +168,57 @@ def test_mms_is_taken_out_of_its_layers(tmp_path: Path) -> None:
     asyncio.run(talk())
 
 
-class Process:
-    """``mmsverify record proxy`` as a process of its own."""
+def test_what_a_slow_client_has_not_read_yet_reaches_it(tmp_path: Path) -> None:
+    long = bytes(3_000_000)
 
-    def __init__(self, server: int, output: Path) -> None:
-        command = ["record", "proxy", "--listen", f"{HOST}:0", "--to", f"{HOST}:{server}"]
-        command += ["--protocol", "modbus", "-o", str(output), "--name", "cell7"]
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "mmsverify", *command],
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-        assert self.process.stderr is not None
-        told = self.process.stderr.readline()
-        self.port = int(told.split(",")[0].rpartition(":")[2])
+    async def pours(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
+        await reader.read()
+        writer.write(long)
+        writer.close()
 
-    def asks(self, times: int) -> None:
-        """Ask so many times, and wait for each answer."""
-        with socket.create_connection((HOST, self.port)) as client:
-            for _ in range(times):
-                client.sendall(ASKED)
-                assert client.recv(1000) == ANSWERED
+    async def talk() -> None:
+        async with serving(pours) as port, relaying(tmp_path / "t.mcap", port) as made:
+            reader, writer = await asyncio.open_connection(HOST, made.port)
+            writer.write_eof()
+            await asyncio.sleep(2.5)
+            assert len(await reader.read(-1)) == len(long)
+            writer.close()
 
-    def ended(self, number: signal.Signals) -> tuple[int, str, str]:
-        """Exit status, stdout and stderr after a signal."""
-        self.process.send_signal(number)
-        out, err = self.process.communicate(timeout=20)
-        return self.process.returncode, out, err
+    asyncio.run(talk())
 
 
-class Server:
-    """A server in a process of its own, for a test without an event loop."""
+@pytest.mark.parametrize("ticks", range(25))
+def test_a_relay_ends_whenever_it_is_told_to(ticks: int, tmp_path: Path) -> None:
+    async def talk() -> None:
+        async with serving(answer) as port:
+            log, told = Log(TraceWriter(tmp_path / "t.mcap"), "cell7"), list[str]()
+            relay = Relay(Address(HOST, 0), Address(HOST, port), "modbus", log, told.append)
+            work = asyncio.create_task(relay.work())
+            _, writer = await asyncio.open_connection(HOST, await told_port(told))
+            for _ in range(ticks):
+                await asyncio.sleep(0)
+            work.cancel()
+            done, _ = await asyncio.wait([work], timeout=3)
+            assert done
+            writer.close()
 
-    CODE = """
-import socket, threading
-server = socket.create_server(("127.0.0.1", 0))
-print(server.getsockname()[1], flush=True)
-def serve(link):
-    while link.recv(1000):
-        link.sendall(bytes.fromhex("%s"))
-while True:
-    threading.Thread(target=serve, args=(server.accept()[0],), daemon=True).start()
-"""
-
-    def __enter__(self) -> int:
-        self.process = subprocess.Popen(
-            [sys.executable, "-c", self.CODE % ANSWERED.hex()], stdout=subprocess.PIPE, text=True
-        )
-        assert self.process.stdout is not None
-        return int(self.process.stdout.readline())
-
-    def __exit__(self, *_: object) -> None:
-        self.process.kill()
-        self.process.communicate()
+    asyncio.run(talk())
 
 
-@pytest.mark.skipif(os.name == "nt", reason="signals")
-def test_ctrl_c_leaves_a_whole_trace_and_a_summary(tmp_path: Path) -> None:
-    output = tmp_path / "t.mcap"
-    with Server() as server:
-        recorder = Process(server, output)
-        recorder.asks(3)
-        status, out, err = recorder.ended(signal.SIGINT)
-    assert status == 0
-    assert out == f"{output}: 1 connection, 6 Modbus ADUs\n"
-    assert "Traceback" not in err
-    assert not read_trace(output).truncated
-    assert len(rows(output)) == 8
+def test_a_relay_that_would_relay_to_itself_turns_the_client_away(tmp_path: Path) -> None:
+    async def talk() -> None:
+        log, told = Log(TraceWriter(tmp_path / "t.mcap"), "cell7"), list[str]()
+        with socket.socket() as free:
+            free.bind((HOST, 0))
+            port = free.getsockname()[1]
+        relay = Relay(Address("0.0.0.0", port), Address(HOST, port), "modbus", log, told.append)
+        work = asyncio.create_task(relay.work())
+        reader, writer = await asyncio.open_connection(HOST, await told_port(told))
+        with pytest.raises(ConnectionResetError):
+            await reader.read()
+        writer.close()
+        work.cancel()
+        await asyncio.wait([work])
+        assert log.refused == 2  # the client, and the relay as its own client
 
-
-@pytest.mark.skipif(os.name == "nt", reason="signals")
-def test_after_a_kill_the_trace_can_be_read(tmp_path: Path) -> None:
-    output = tmp_path / "t.mcap"
-    with Server() as server:
-        recorder = Process(server, output)
-        recorder.asks(3)
-        time.sleep(1.5)  # what a kill may cost is a second
-        recorder.ended(signal.SIGKILL)
-    assert [data for _, data in rows(output) if isinstance(data, bytes)] == [ASKED, ANSWERED] * 3
-    assert read_trace(output).truncated
-
-
-def refused(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:
-    assert main(["record", *arguments]) == 2
-    told = capsys.readouterr()
-    assert told.out == ""
-    assert told.err.count("\n") == 1
-    return told.err
-
-
-@pytest.mark.parametrize(
-    ("change", "told"),
-    [
-        ({"--listen": "nowhere"}, "--listen: cannot read 'nowhere' (write it like 10.0.0.5:502"),
-        ({"--listen": "::1:502"}, "--listen: cannot read '::1:502'"),
-        ({"--to": "127.0.0.1:99999"}, "--to: cannot read"),
-        ({"--to": "127.0.0.1:1502"}, "--listen: is the controller itself"),
-        ({"--protocol": "profinet"}, "--protocol: no protocol 'profinet' here (mms or modbus)"),
-        ({"--name": "a/b"}, "--name: 'a/b' cannot name a channel"),
-        ({"-o": "/nowhere/at/all.mcap"}, "/nowhere/at/all.mcap: its folder does not exist"),
-    ],
-)
-def test_a_bad_request_is_one_line(
-    change: dict[str, str], told: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    options = {"--listen": f"{HOST}:1502", "--to": f"{HOST}:502", "--protocol": "modbus"}
-    options |= {"-o": str(tmp_path / "t.mcap"), **change}
-    words = [word for pair in options.items() for word in pair]
-    assert told in refused(capsys, "proxy", *words)
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_a_port_in_use_is_told_and_leaves_no_file(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    output = tmp_path / "t.mcap"
-    with socket.create_server((HOST, 0)) as taken:
-        here = f"{HOST}:{taken.getsockname()[1]}"
-        line = refused(
-            capsys, "proxy", "--listen", here, "--to", HOST, "--protocol", "mms", "-o", str(output)
-        )
-    assert line.startswith(f"mmsverify: {here}: cannot listen there: ")
-    assert not output.exists()
-
-
-def test_a_recording_is_never_overwritten(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    output = tmp_path / "t.mcap"
-    output.write_bytes(b"precious")
-    arguments = ["--listen", f"{HOST}:0", "--to", HOST, "--protocol", "mms", "-o", str(output)]
-    assert "exists already" in refused(capsys, "proxy", *arguments)
-    assert output.read_bytes() == b"precious"
-
-
-class Full(io.BytesIO):
-    """A disk on which nothing fits any more after the first ``room`` octets."""
-
-    room = 400
-
-    def write(self, octets: Any, /) -> int:
-        if self.tell() + len(octets) > self.room:
-            raise OSError(errno.ENOSPC, "No space left on device")
-        return super().write(octets)
-
-
-def test_a_full_disk_ends_the_recording_and_not_the_traffic() -> None:
-    log = Log(TraceWriter(Full(), compress=False))
-    live = log.connection("modbus", Endpoint("client", 1), Endpoint("server", 2))
-    for _ in range(100):
-        live.data("client", ASKED)
-        log.flush()
-    live.end("close")
-    recorded = log.end()
-    assert recorded.broken == "No space left on device"
-    assert 0 < recorded.pdus["modbus"] < 100
-
-
-def test_a_fault_of_a_reader_is_told_and_stops_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
-    def fails(*_: object) -> list[bytes]:
-        raise ZeroDivisionError("never so")
-
-    log = Log(TraceWriter(io.BytesIO()))
-    live = log.connection("modbus", Endpoint("client", 1), Endpoint("server", 2))
-    monkeypatch.setattr(live.talk.reader, "feed", fails)
-    live.data("client", ASKED)
-    monkeypatch.undo()
-    live.data("client", ASKED)
-    recorded = log.end()
-    assert [(each.layer, each.reason) for each in recorded.undecoded] == [
-        ("recording", "ZeroDivisionError: never so")
-    ]
-    assert recorded.pdus["modbus"] == 1
+    asyncio.run(talk())

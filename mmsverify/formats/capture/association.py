@@ -120,9 +120,10 @@ def _pdu(octets: bytes) -> bytes | Fault:
     if not octets:
         return Fault("mms", "an empty presentation data value")
     if octets[0] not in PDU_TAGS:
-        return Fault("mms", f"{octets[0]:02X} begins no MMS PDU")
+        return Fault("mms", f"{octets[0]:02X} begins no MMS PDU", octets=octets)
     try:
         _, _, end = ber.header(octets, 0, len(octets))
     except ber.Fault as fault:
-        return Fault("mms", f"octet {fault.offset}: {fault.cause}")
-    return octets if end == len(octets) else Fault("mms", f"{len(octets) - end} octets after an MMS PDU")
+        return Fault("mms", f"octet {fault.offset}: {fault.cause}", octets=octets)
+    left = len(octets) - end
+    return Fault("mms", f"{left} octets after an MMS PDU", octets=octets) if left else octets

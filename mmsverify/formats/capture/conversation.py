@@ -11,13 +11,18 @@ from mmsverify.formats.capture import tpkt
 from mmsverify.formats.capture.association import PDU_TAGS, Association
 from mmsverify.formats.capture.faults import Fault
 from mmsverify.formats.capture.link import Endpoint
-from mmsverify.formats.capture.modbus import ModbusConnection, looks_like_modbus
+from mmsverify.formats.capture.modbus import ModbusConnection, asks
 from mmsverify.formats.capture.tcp import Connection, Happening
-from mmsverify.formats.mcap_write import TraceWriter
 from mmsverify.formats.trace import Channel, LinkEvent, Role, Sender
 
 _USUAL = {"mms": 102, "modbus": 502}
 _SESSION_STARTS = (0x01, 0x0D, 0x0E)
+
+
+class Sink(Protocol):
+    """Where messages go: a recording in the making."""
+
+    def add(self, time: int, channel: Channel, data: bytes) -> None: ...
 
 
 class Reader(Protocol):
@@ -73,7 +78,11 @@ class Names:
 
 @dataclass(slots=True)
 class Conversation:
-    """What one connection of a known role writes into the trace, message by message."""
+    """What one connection of a known role writes into the trace, message by message.
+
+    What could not be read becomes a gap. ``verbatim``: what stands where a message should is written as one,
+    for these are the octets that were on the wire, and no capture has lost any.
+    """
 
     role: Role
     server: Endpoint
@@ -81,8 +90,9 @@ class Conversation:
     reader: Reader
     link: Channel
     channels: dict[Sender, Channel]
-    writer: TraceWriter
+    writer: Sink
     report: Callable[[int, Fault], None]
+    verbatim: bool = False
     messages: int = 0
     ended: bool = False
     _gap_last: bool = False
@@ -111,7 +121,7 @@ class Conversation:
         for sender in self.channels:
             fault = self.reader.end(sender)
             if fault:
-                self._fault(self._spoke.get(sender, packet), time, fault)
+                self._fault(self._spoke.get(sender, packet), time, sender, fault)
 
     def tell(self, event: LinkEvent, time: int) -> None:
         """Write a link event; gaps with nothing between them are one."""
@@ -125,14 +135,18 @@ class Conversation:
         self._spoke[sender] = happening.packet
         for item in self.reader.feed(sender, happening.data):
             if isinstance(item, Fault):
-                self._fault(happening.packet, happening.time, item)
+                self._fault(happening.packet, happening.time, sender, item)
             else:
                 self._write(happening.time, self.channels[sender], item)
                 self.messages += 1
                 self._gap_last = False
 
-    def _fault(self, packet: int, time: int, fault: Fault) -> None:
+    def _fault(self, packet: int, time: int, sender: Sender, fault: Fault) -> None:
         self.report(packet, fault)
+        if self.verbatim and fault.octets:
+            self._write(time, self.channels[sender], fault.octets)
+            self._gap_last = False
+            return
         if fault.lost:
             self.tell("gap", time)
 
@@ -155,7 +169,7 @@ def role_of(data: bytes) -> Role | None:
     """The protocol that a side's first octets are of, on a port where none is expected."""
     if looks_like_mms(data):
         return "mms"
-    return "modbus" if looks_like_modbus(data) else None
+    return None if asks(data) is None else "modbus"
 
 
 def looks_like_mms(data: bytes) -> bool:
@@ -171,7 +185,7 @@ def looks_like_mms(data: bytes) -> bool:
     return b"\xc1" in data[11:] and b"\xc2" in data[11:]
 
 
-def server_of(connection: Connection, ports: frozenset[int], first: Happening) -> Endpoint:
+def server_of(connection: Connection, role: Role, ports: frozenset[int], first: Happening) -> Endpoint:
     """Who accepted the connection: by the handshake, else by port, else by who asks, else by lower port."""
     one, other = connection.ends
     if connection.opener is not None:
@@ -180,5 +194,7 @@ def server_of(connection: Connection, ports: frozenset[int], first: Happening) -
         if end.port in ports:
             return end
     speaker, listener = (one, other) if first.source == one else (other, one)
-    asks = {b"\xe0": listener, b"\xd0": speaker}.get(first.data[5:6])
-    return asks or min(one, other, key=lambda end: end.port)
+    asked = {b"\xe0": True, b"\xd0": False}.get(first.data[5:6]) if role == "mms" else asks(first.data)
+    if asked is None:
+        return min(one, other, key=lambda end: end.port)
+    return listener if asked else speaker

@@ -9,12 +9,14 @@ from dataclasses import dataclass
 class Fault:
     """Octets that are not what their layer says. ``layer`` is one of tcp, tpkt, cotp, session, ..., modbus.
 
-    ``lost`` is false where what the octets carry could be read all the same.
+    ``lost`` is false where what the octets carry could be read all the same. ``octets`` are those that stand
+    where a message of the protocol should, as far as they can be told apart.
     """
 
     layer: str
     reason: str
     lost: bool = True
+    octets: bytes = b""
 
 
 class UnreadableError(Exception):

@@ -19,7 +19,7 @@ from mmsverify.formats.capture.conversation import (
     server_of,
 )
 from mmsverify.formats.capture.faults import Fault, UnreadableError
-from mmsverify.formats.capture.link import LINKS, Segment, segment_of
+from mmsverify.formats.capture.link import LINKS, Endpoint, Segment, segment_of
 from mmsverify.formats.capture.packets import Capture, Packet
 from mmsverify.formats.capture.tcp import Connection, Connections, Happening
 from mmsverify.formats.csv_samples import CsvSamples, Tables, is_csv
@@ -32,6 +32,9 @@ SAMPLING = {
     "polled": "any number of scans may lie between two rows (--sampling scan, where every scan is one)",
 }
 """What an audit will take the samples for."""
+
+
+_PATIENCE = 4  # happenings on a connection of unknown ports after which it is nobody's
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,8 +143,15 @@ class _Table:
 class _Unnamed:
     """A connection of which nobody knows yet whether it is of interest."""
 
-    opened: Happening | None = None
+    waiting: list[Happening] = field(default_factory=list)
+    said: dict[Endpoint, bytes] = field(default_factory=dict)
     foreign: bool = False
+
+    def role(self, happening: Happening) -> Role | None:
+        """The protocol that a side's octets are of by now, on ports where none is expected."""
+        if happening.data:
+            self.said[happening.source] = self.said.get(happening.source, b"") + happening.data
+        return role_of(self.said.get(happening.source, b""))
 
 
 @dataclass(slots=True)
@@ -202,23 +212,26 @@ class _Import:
     def _decide(
         self, connection: Connection, unnamed: _Unnamed, happening: Happening
     ) -> Conversation | _Unnamed:
-        """Begin a conversation as soon as it is clear that there is one."""
+        """Begin a conversation as soon as it is clear that there is one, with all that was said before."""
         role = self.ports.role(connection.ends)
-        if happening.kind == "open" and role is None:
-            unnamed.opened = happening
-        if happening.kind == "data" and role is None:
-            role = role_of(happening.data)
-            unnamed.foreign = role is None
+        unnamed.waiting.append(happening)
+        if role is None and happening.kind == "data":
+            role = unnamed.role(happening)
+            unnamed.foreign = role is None and len(unnamed.waiting) > _PATIENCE
+        if unnamed.foreign:
+            unnamed.waiting.clear()
+            unnamed.said.clear()
         if role is None or happening.kind not in ("open", "data"):
             return unnamed
-        conversation = self._begin(connection, role, happening)
-        if unnamed.opened is not None:
-            conversation.take(unnamed.opened)
-        self._conversations[connection] = conversation
+        *earlier, last = unnamed.waiting
+        told = last._replace(data=unnamed.said.get(last.source, last.data))
+        conversation = self._conversations[connection] = self._begin(connection, role, told)
+        for each in earlier:
+            conversation.take(each)
         return conversation
 
     def _begin(self, connection: Connection, role: Role, first: Happening) -> Conversation:
-        server = server_of(connection, self.ports.of(role), first)
+        server = server_of(connection, role, self.ports.of(role), first)
         host, name = self.names.host(server, role), self.names.connection(role)
         return Conversation(
             role=role,

@@ -30,7 +30,7 @@ class ModbusConnection:
             head, left = held[at : at + _HEAD], len(held) - at
             reason = _wrong(head)
             if reason:
-                yield Fault("modbus", f"{left} octets that are no ADU: {reason}")
+                yield Fault("modbus", f"{left} octets that are no ADU: {reason}", octets=held[at:])
                 return
             size = _HEAD + int.from_bytes(head[4:6])
             if left < _HEAD or left < size:
@@ -45,9 +45,9 @@ class ModbusConnection:
 
     def end(self, sender: Sender) -> Fault | None:
         """The stream of this side ends: what is left over?"""
-        left = len(self._held[sender])
-        self._held[sender] = b""
-        return Fault("modbus", f"the stream ends after {left} octets of an ADU") if left else None
+        left, self._held[sender] = self._held[sender], b""
+        reason = f"the stream ends after {len(left)} octets of an ADU"
+        return Fault("modbus", reason, octets=left) if left else None
 
 
 def _wrong(held: bytes) -> str:
@@ -59,22 +59,38 @@ def _wrong(held: bytes) -> str:
     return ""
 
 
-def looks_like_modbus(data: bytes) -> bool:
-    """Whether a side's first octets are those of Modbus on a port where nobody expects it.
+def asks(data: bytes) -> bool | None:
+    """Whether octets are Modbus requests (true) or answers (false); ``None`` where they are neither.
 
-    They must be one whole ADU and nothing else, and either a request that is right in every field or an
-    answer whose counts are: two octets of zeros and a length alone stand in many protocols.
+    For ports where nobody expects Modbus: they must be whole ADUs and nothing else, and one of them a request
+    that is right in every field, or an answer whose counts are. Two octets of zeros and a length alone stand
+    in many protocols.
     """
     try:
-        adu = modbus.decode(data)
+        found = {_asks(adu) for adu in _whole(data)}
     except DecodeError:
-        return False
+        return None
+    return True if True in found else False if False in found else None
+
+
+def _whole(data: bytes) -> Iterator[modbus.Adu]:
+    at = 0
+    while at < len(data):
+        size = _HEAD + int.from_bytes(data[at + 4 : at + _HEAD])
+        yield modbus.decode(data[at : at + size])
+        at += size
+
+
+def _asks(adu: modbus.Adu) -> bool | None:
+    """Whether an ADU is a request, or an answer; ``None`` where it does not show."""
+    code = adu.function & ~modbus.EXCEPTION
+    if adu.exception:
+        return False if code in set(modbus.Function) and len(adu.data) == 1 and adu.data[0] < 12 else None
     asked = modbus.request(adu)
-    return asked is not None and (not asked.amiss or _counts(adu))
-
-
-def _counts(adu: modbus.Adu) -> bool:
-    """Whether an ADU is the answer to a read: as many octets as it says, of words an even number."""
-    reads = adu.function <= modbus.Function.READ_INPUT_REGISTERS
-    even = adu.function in modbus.BITS or len(adu.data) % 2 == 1
-    return reads and even and len(adu.data) > 1 and adu.data[0] == len(adu.data) - 1
+    if asked is not None and not asked.amiss:
+        return True
+    if asked is not None and code in modbus.MULTIPLE:
+        return False if len(adu.data) == 4 else None
+    even = code in modbus.BITS or len(adu.data) % 2 == 1
+    counted = len(adu.data) > 1 and adu.data[0] == len(adu.data) - 1
+    return False if asked is not None and even and counted else None

@@ -115,9 +115,9 @@ class Stream:
         return self.fin is not None and self.next is not None and _after(self.fin, self.next) <= 0
 
     @property
-    def ending(self) -> bool:
+    def disturbed(self) -> bool:
         """Whether octets wait behind a hole, or the stream's end was seen."""
-        return bool(self._waiting) or self.fin is not None
+        return self.holed or self.fin is not None
 
     @property
     def holed(self) -> bool:
@@ -156,6 +156,7 @@ class Connection:
         self._last = segment
         stream, other = self._streams[segment.source], self._streams[segment.target]
         if self._plain(segment, stream, other):
+            stream.waited = other.waited = 0
             other.acknowledge(segment.ack)
             if not segment.data:
                 return ()
@@ -170,8 +171,8 @@ class Connection:
             or segment.fin
             or segment.rst
             or segment.seq != stream.next
-            or stream.ending
-            or other.ending
+            or stream.disturbed
+            or other.disturbed
             or not (self._open or self.opener is None)
         )
 
