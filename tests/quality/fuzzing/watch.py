@@ -44,10 +44,12 @@ class Judgement:
 class Watch:
     """Runs inputs one by one in this process, and the main thread of it; a context manager for its alarm.
 
-    ``largest``: the MiB that the process may hold, ``None`` where its size is not looked at.
+    ``largest``: the MiB that the process may hold, ``None`` where its size is not looked at. ``longest``: the
+    seconds that an input may take.
     """
 
-    def __init__(self, largest: float | None = LARGEST) -> None:
+    def __init__(self, largest: float | None = LARGEST, longest: float = LONGEST) -> None:
+        self._longest = longest
         self._began = self._began_wall = 0.0
         self._running = False
         self._largest = largest
@@ -64,7 +66,7 @@ class Watch:
 
         ``run`` says whether it accepts it, or raises one of the documented errors.
         """
-        signal.setitimer(signal.ITIMER_REAL, LONGEST, LONGEST / 4)
+        signal.setitimer(signal.ITIMER_REAL, self._longest, self._longest / 4)
         self._began, self._began_wall = time.process_time(), time.monotonic()
         accepted, fault, before = False, "", peak()
         try:
@@ -77,7 +79,7 @@ class Watch:
             fault = told(error)
         seconds = time.process_time() - self._began
         signal.setitimer(signal.ITIMER_REAL, 0)
-        if not fault and seconds > LONGEST:
+        if not fault and seconds > self._longest:
             fault = "hang"
         if not fault and self._largest is not None and peak() > max(self._largest, before):
             fault = "memory"
@@ -94,7 +96,7 @@ class Watch:
         if not self._running:
             return
         waited = time.monotonic() - self._began_wall
-        if time.process_time() - self._began > LONGEST or waited > PATIENCE:
+        if time.process_time() - self._began > self._longest or waited > PATIENCE:
             raise Hang
 
 
