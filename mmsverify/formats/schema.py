@@ -1,21 +1,18 @@
-"""ASN.1 modules to compiled types: the only file that knows asn1tools, and only its parser.
+"""Parsed ASN.1 modules to compiled types. The text was parsed before (`asn1_text`); how octets are read is
+`codec`'s.
 
-asn1tools parses the text; how octets are read is `codec`'s. Two things of the text are completed here: the
-value of a CHOICE default, which that parser drops, and the module of forms that are only read (`ALSO_READ`),
-whose types stand beside the types of the same name.
+The types of the module of forms that are only read (`ALSO_READ`) stand beside the types of the same name.
 """
 
 from __future__ import annotations
 
-import re
+import json
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from pathlib import Path
 from typing import Any
 
-import asn1tools
-
-from mmsverify.errors import MmsverifyError
+from mmsverify.errors import InputError, MmsverifyError
 from mmsverify.formats.builtin import Bounds, Primitive, constructed
 from mmsverify.formats.codec import Choice, ListOf, Member, Reader, Struct, Type
 from mmsverify.formats.tagging import EitherForm, Explicit, ExplicitAny
@@ -39,7 +36,8 @@ _UNIVERSAL = {
     "VisibleString": 26,
 }
 _CLASSES = {"UNIVERSAL": 0x00, "APPLICATION": 0x40, "CONTEXT": 0x80, "PRIVATE": 0xC0}
-_CHOICE_DEFAULT = re.compile(r"\bDEFAULT\s+([a-z][\w-]*)\s*:\s*(-?\d+)")
+TABLE = "modules.json"
+"""The file beside the modules that holds what `asn1_text` makes of them."""
 
 Tree = dict[str, Any]
 Tag = tuple[int, int]
@@ -72,12 +70,14 @@ class _Later:
 
 
 class Schema:
-    """The types of some ASN.1 modules, compiled when asked for. Type names are unique over all of them."""
+    """The types of some ASN.1 modules, compiled when asked for. Type names are unique over all of them.
 
-    def __init__(self, texts: Iterable[str]) -> None:
-        text = "\n".join(texts)
-        modules = _parsed(text)
-        self._choice_defaults = _choice_defaults(text)
+    ``parsed`` is what `asn1_text.parsed` makes of their text.
+    """
+
+    def __init__(self, parsed: Mapping[str, Tree]) -> None:
+        modules = parsed["modules"]
+        self._choice_defaults: Tree = parsed["choice defaults"]
         self._also: Tree = modules[ALSO_READ]["types"] if ALSO_READ in modules else {}
         self._values: Tree = {
             name: one for module in modules.values() for name, one in module["values"].items()
@@ -90,8 +90,12 @@ class Schema:
 
     @classmethod
     def of_folder(cls, folder: Path) -> Schema:
-        """Read every ``*.asn`` file of ``folder``."""
-        return cls(path.read_text(encoding="utf-8") for path in sorted(folder.glob("*.asn")))
+        """The modules of ``folder`` by their table: it is read in a millisecond, they are not parsed."""
+        try:
+            return cls(json.loads((folder / TABLE).read_text(encoding="utf-8")))
+        except (OSError, ValueError) as error:
+            cure = "install mmsverify again, or make it with python -m mmsverify.formats.asn1_text"
+            raise InputError(f"cannot be read: {error}", place=str(folder / TABLE), cure=cure) from None
 
     def _adopt(self, name: str, module: Tree) -> None:
         if module.get("tags") != "IMPLICIT":
@@ -114,7 +118,7 @@ class Schema:
     def object_identifier(self, name: str) -> str:
         """The object identifier that a module assigns to that name, as dotted numbers."""
         arcs = self._values[name]["value"]
-        return ".".join(str(arc[1] if isinstance(arc, tuple) else arc) for arc in arcs)
+        return ".".join(str(arc[1] if isinstance(arc, list) else arc) for arc in arcs)
 
     def places(self, root: str, names: Iterable[str]) -> list[str]:
         """The productions and fields that field names lead through from the type ``root``, outermost first.
@@ -211,26 +215,8 @@ class Schema:
         if written.startswith("0b"):
             return written[2:]
         if written in self._choice_defaults:
-            return self._choice_defaults[written]
+            return written, self._choice_defaults[written]
         raise SchemaError(f"the default {written} is not understood", place=place)
-
-
-def _parsed(text: str) -> Mapping[str, Tree]:
-    try:
-        modules: Mapping[str, Tree] = asn1tools.parse_string(text)
-    except (asn1tools.ParseError, ValueError) as bad:
-        raise SchemaError(f"the ASN.1 text cannot be parsed: {bad}") from None
-    return modules
-
-
-def _choice_defaults(text: str) -> dict[str, tuple[str, int]]:
-    """The defaults that are an alternative with a number, by what the parser leaves of them: the name."""
-    found: dict[str, tuple[str, int]] = {}
-    for name, value in _CHOICE_DEFAULT.findall(text):
-        default = name, int(value)
-        if found.setdefault(name, default) != default:
-            raise SchemaError(f"two defaults for the alternative {name}", place=name, cure="use one value")
-    return found
 
 
 def _identifier(tag: Tag) -> int:
@@ -244,7 +230,7 @@ def _constructed(tag: Tag) -> int:
 
 def _bounds(tree: Tree) -> Bounds:
     written = tree.get("restricted-to") or tree.get("size") or ()
-    return tuple(bound if isinstance(bound, tuple) else (bound, bound) for bound in written)
+    return tuple((bound[0], bound[1]) if isinstance(bound, list) else (bound, bound) for bound in written)
 
 
 def _refuse_same_tags(alternatives: Iterable[tuple[str, Type]], place: str) -> None:

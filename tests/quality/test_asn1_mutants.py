@@ -6,6 +6,7 @@ as caught, too: it could not have been shipped.
 
 from __future__ import annotations
 
+import json
 from typing import Any
 
 import asn1tools
@@ -15,7 +16,7 @@ from worked_additions import ADDITION_PDUS
 from worked_pdus import NAMES, check_names
 from worked_programs import PROGRAM_PDUS
 
-from mmsverify.formats import mms, schema
+from mmsverify.formats import asn1_text, mms, schema
 from mmsverify.formats.cited import cited_productions
 from mmsverify.formats.schema import Schema, SchemaError
 from mmsverify.resources import asn1_dir
@@ -59,8 +60,8 @@ def spoken(monkeypatch: pytest.MonkeyPatch) -> pytest.MonkeyPatch:
 
 def speak(spoken: pytest.MonkeyPatch, modules: dict[str, Any], texts: list[str]) -> None:
     """Let the decoder speak the ASN.1 of these parse trees; `SchemaError` where they make no sense."""
-    spoken.setattr(schema, "_parsed", lambda _: modules)
-    made = Schema(texts)
+    tree = json.loads(json.dumps(modules))
+    made = Schema({"modules": tree, "choice defaults": asn1_text.choice_defaults("\n".join(texts))})
     root = made.type("MMSpdu")
     spoken.setattr(mms, "_schema", lambda: made)
     spoken.setattr(mms, "_root", lambda: root)

@@ -8,9 +8,10 @@ from typing import Any
 import asn1tools
 import pytest
 
+from mmsverify.formats.asn1_text import parsed, table
 from mmsverify.formats.codec import Choice
 from mmsverify.formats.mms import decode, encode
-from mmsverify.formats.schema import ALSO_READ, Schema, SchemaError
+from mmsverify.formats.schema import ALSO_READ, TABLE, Schema, SchemaError
 from mmsverify.resources import asn1_dir
 from mmsverify.samples import annex_a
 
@@ -19,6 +20,11 @@ TEXTS = {path.name: path.read_text(encoding="utf-8") for path in PATHS}
 MODULES: dict[str, Any] = asn1tools.parse_files([str(path) for path in PATHS])
 SCHEMA = Schema.of_folder(asn1_dir())
 HEADER = "Try DEFINITIONS IMPLICIT TAGS ::= BEGIN\n"
+
+
+def test_the_table_is_that_of_the_present_modules() -> None:
+    """``python -m mmsverify.formats.asn1_text`` makes it anew."""
+    assert (asn1_dir() / TABLE).read_text(encoding="utf-8") == table(asn1_dir())
 
 
 def references(tree: Any) -> set[str]:
@@ -103,11 +109,11 @@ def test_another_decoder_reads_annex_a_as_this_one_does() -> None:
 )
 def test_a_module_that_cannot_be_right_is_refused(body: str, cause: str) -> None:
     with pytest.raises(SchemaError, match=cause):
-        Schema([f"{HEADER}{body}\nEND"]).type("A")
+        Schema(parsed([f"{HEADER}{body}\nEND"])).type("A")
 
 
 def test_modules_must_agree_on_tags_and_names() -> None:
     with pytest.raises(SchemaError, match="IMPLICIT TAGS"):
-        Schema(["Try DEFINITIONS ::= BEGIN A ::= NULL END"])
+        Schema(parsed(["Try DEFINITIONS ::= BEGIN A ::= NULL END"]))
     with pytest.raises(SchemaError, match="second type"):
-        Schema([HEADER + "A ::= NULL END", HEADER.replace("Try", "Again") + "A ::= NULL END"])
+        Schema(parsed([HEADER + "A ::= NULL END", HEADER.replace("Try", "Again") + "A ::= NULL END"]))
