@@ -32,8 +32,13 @@ def audit_traces(
     model: str | None,
     variant: str = "repaired",
     progress: Callable[[str], None] | None = None,
+    exact: bool = False,
 ) -> Audit:
-    """Replay every trace against its model. An unreadable file is a finding; the others are audited."""
+    """Replay every trace against its model. An unreadable file is a finding; the others are audited.
+
+    ``exact``: each message is judged by itself, and not by what was learned from those before: slow, and the
+    same findings.
+    """
     tables = load_profile(profile)
     inputs: list[AuditedInput] = []
     findings: list[Finding] = []
@@ -43,7 +48,7 @@ def audit_traces(
         try:
             trace = read_trace(path)
             merged = tables if profile is not None else {**tables, **from_metadata(trace.profile, str(path))}
-            entry, found = _audit(trace, merged, model, variant)
+            entry, found = _audit(trace, merged, model, variant, exact=exact)
         except (InputError, ProfileError) as error:
             if profile is not None and isinstance(error, ProfileError):
                 raise
@@ -60,10 +65,15 @@ def read_events(path: Path) -> Iterator[MmsEvent]:
 
 
 def _audit(
-    trace: McapTrace, tables: Mapping[str, Mapping[str, Any]], model: str | None, variant: str
+    trace: McapTrace,
+    tables: Mapping[str, Mapping[str, Any]],
+    model: str | None,
+    variant: str,
+    *,
+    exact: bool = False,
 ) -> tuple[AuditedInput, list[Finding]]:
     begin = time.perf_counter()
-    replay = Replay(trace, within_framework(tables), model, variant)
+    replay = Replay(trace, within_framework(tables), model, variant, exact=exact)
     findings = list(_findings(replay, Path(trace.path)))
     if trace.truncated and not replay.messages and not findings:
         raise InputError(

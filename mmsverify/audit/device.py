@@ -12,13 +12,14 @@ from mmsverify.audit import contents
 from mmsverify.audit.acquaintance import Acquaintance
 from mmsverify.audit.conformance import Conformance
 from mmsverify.audit.exchange import Asked, Association
+from mmsverify.audit.marks import marked
 from mmsverify.audit.notifications import Notifications
 from mmsverify.audit.objects import Objects
 from mmsverify.audit.performing import Performing
 from mmsverify.audit.rules import Breach
 from mmsverify.audit.showing import Showing
 from mmsverify.audit.suspicion import alarming, of_caller, undecodable
-from mmsverify.audit.telling import Place, Telling
+from mmsverify.audit.telling import History, Place, Telling
 from mmsverify.audit.transfers import UPLOADING, Transfers
 from mmsverify.concrete.belief import Belief
 from mmsverify.errors import DecodeError
@@ -48,7 +49,7 @@ class Device:
     ) -> None:
         self.belief = belief
         self.base_only = base_only
-        self._blind = tuple(blind)
+        self.blind = tuple(blind)
         self._associations: dict[str, Association] = {}
         self._acquaintance = Acquaintance(belief.world.names["ProgramInvocation"])
         self._telling = Telling(place)
@@ -58,6 +59,11 @@ class Device:
         self._notifications = Notifications(belief, self._showing)
         self._conformance = Conformance()
         self._objects = Objects()
+
+    @property
+    def history(self) -> History:
+        """What was written and told so far."""
+        return self._telling.history
 
     # Links.
 
@@ -108,7 +114,7 @@ class Device:
         name, side = message.metadata.get("association", ""), message.metadata.get("sender", "client")
         self.belief.listen()
         try:
-            pdu = mms.decode(message.data)
+            pdu = marked(mms.decode(message.data))
         except DecodeError as error:
             clause = Clause.of(*mms.encoded_statements(error.path))
             yield from self._telling.breach(message, undecodable(message.data, error, clause))
@@ -120,7 +126,7 @@ class Device:
                 yield found
         for late in self._notifications.note(name, message):
             yield from self._telling.breach(message, late)
-        if any(first <= message.index <= last for first, last in self._blind):
+        if any(first <= message.index <= last for first, last in self.blind):
             self._lose_sight()
 
     def _judge(self, association: Association, side: str, pdu: Pdu, message: TraceMessage) -> Told:

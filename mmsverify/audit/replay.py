@@ -10,6 +10,7 @@ from functools import cached_property
 from typing import Any
 
 from mmsverify.audit.device import Device
+from mmsverify.audit.learned import LearnedDevice
 from mmsverify.audit.lookahead import Lookahead, link
 from mmsverify.audit.modbus import Access, Plan, Server
 from mmsverify.audit.telling import Place
@@ -37,17 +38,21 @@ Tables = Mapping[str, Mapping[str, Any]]
 class Replay:
     """One recording under a profile.
 
-    ``messages``, ``events`` and ``skipped`` are counts, true once the run is over; ``coverage`` is what the
-    events of each device have exercised.
+    ``exact``: every message is judged by itself, and nothing is learned from those before; the findings are
+    the same. ``messages``, ``events`` and ``skipped`` are counts, true once the run is over; ``coverage`` is
+    what the events of each device have exercised.
     """
 
-    def __init__(self, trace: McapTrace, tables: Tables, model: str | None, variant: str) -> None:
+    def __init__(
+        self, trace: McapTrace, tables: Tables, model: str | None, variant: str, *, exact: bool = False
+    ) -> None:
         self.trace = trace
         self.profile = tables.get(ROBOT, {})
+        self._exact = exact
         self._asked, self._variant, self._tables = _known(model), variant, tables
         self.messages = self.events = self.skipped = 0
         self.coverage: list[Coverage] = []
-        self._devices: dict[str, Device] = {}
+        self._devices: dict[str, LearnedDevice] = {}
         self._controllers: dict[str, Controller] = {}
         self._servers: dict[str, Server] = {}
         self._ahead = Lookahead(trace)
@@ -58,7 +63,8 @@ class Replay:
             self.messages += 1
             if message.message_encoding == "mms-ber" and self._asked in (None, ROBOT):
                 self.events += 1
-                yield from self._device(message.metadata.get("vmd", "")).message(message)
+                device = self._device(message.metadata.get("vmd", ""))
+                yield from device.message(message.index, message.time, message.channel, message.data)
             elif message.schema_name == SAMPLES and self._asked in (None, FRAMEWORK):
                 self.events += 1
                 yield from self.controller(message).sample(message)
@@ -117,7 +123,7 @@ class Replay:
             raise ProfileError(cause, place=f"{FRAMEWORK}.commands", cure=cure) from None
         return Scans(automaton), numbering
 
-    def _device(self, vmd: str) -> Device:
+    def _device(self, vmd: str) -> LearnedDevice:
         if vmd not in self._devices:
             scenario = self.model.options["scenario"]
             predefined = self.profile.get("predefined", ())
@@ -139,7 +145,8 @@ class Replay:
                 )
             self.coverage.append(belief.coverage)
             place = Place(self.trace.path, vmd)
-            self._devices[vmd] = Device(place, belief, self._arms(), base, self._ahead.blind(vmd))
+            device = Device(place, belief, self._arms(), base, self._ahead.blind(vmd))
+            self._devices[vmd] = LearnedDevice(device, exact=self._exact)
         return self._devices[vmd]
 
     def _proved(self) -> tuple[Claim, ...]:

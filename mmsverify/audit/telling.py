@@ -6,7 +6,7 @@ again with every poll.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -42,13 +42,35 @@ def of_rule(place: Place, message: TraceMessage, rule: Rule, breach: Breach) -> 
     )  # fmt: skip
 
 
+class History:
+    """Who wrote each cell of a device's belief last, and what was told of it lately."""
+
+    def __init__(self) -> None:
+        self.writers: dict[Key, tuple[int, tuple[str, ...]]] = {}
+        self.recent: dict[Any, int] = {}
+
+    def written_at(self, index: int) -> dict[Key, tuple[str, ...]]:
+        """The cells that the message at ``index`` wrote, with the clauses that made them so."""
+        return {key: made for key, (at, made) in self.writers.items() if at == index}
+
+    def told_at(self, index: int) -> bool:
+        """Whether something was told of the message at ``index``, or would have been if it were not known."""
+        return any(at == index for at in self.recent.values())
+
+    def write_down(self, steps: Iterable[tuple[Mapping[Key, tuple[str, ...]], int]]) -> None:
+        """What earlier messages wrote: the cells, and the index of each message."""
+        for wrote, index in steps:
+            for key, made in wrote.items():
+                if self.writers.get(key, (-1, ()))[0] < index:
+                    self.writers[key] = index, made
+
+
 class Telling:
     """What is told of one device, and what has been told of it."""
 
     def __init__(self, place: Place) -> None:
         self.place = place
-        self._writers: dict[Key, tuple[int, tuple[str, ...]]] = {}
-        self._recent: dict[Any, int] = {}
+        self.history = History()
 
     def outcome(
         self,
@@ -66,19 +88,19 @@ class Telling:
         ):
             yield self._finding(message, service, answer, blame, related)
         for key in outcome.written:
-            made = outcome.clauses.get(key[0]) or self._writers.get(key, (0, ()))[1]
-            self._writers[key] = (message.index, made)
+            made = outcome.clauses.get(key[0]) or self.history.writers.get(key, (0, ()))[1]
+            self.history.writers[key] = (message.index, made)
 
     def _repeated(self, message: TraceMessage, key: Any, *, told_again: bool) -> bool:
         """Whether it was told shortly before: a contradiction that every poll repeats is one finding."""
-        last = self._recent.get(key)
-        self._recent[key] = message.index
+        last = self.history.recent.get(key)
+        self.history.recent[key] = message.index
         return not told_again and last is not None and message.index - last <= WINDOW
 
     def _finding(
         self, message: TraceMessage, service: str, answer: str, blame: Blame, related: tuple[int, ...]
     ) -> Finding:
-        wrote = [self._writers[key] for key in sorted(blame.reads) if key in self._writers]
+        wrote = [self.history.writers[key] for key in sorted(blame.reads) if key in self.history.writers]
         writers = {index for index, _ in wrote}
         # What a message contradicts was established by the step that last wrote it: that step is cited, too.
         made = () if answer else tuple(clause for _, clauses in wrote for clause in clauses)

@@ -105,6 +105,11 @@ class World:
         self.all |= place.bits
         self.of_variable[key[0]] |= place.bits
 
+    @property
+    def size(self) -> int:
+        """How many bits its states have; it grows with each name that is seen."""
+        return len(self.at_bit)
+
     def blank(self) -> Partial:
         """The partial state that knows nothing."""
         return Partial(self, self.all, {})

@@ -1,0 +1,36 @@
+"""What is left of a message when the invokeID is taken out: the class of events that it belongs to.
+
+Only the head of a PDU is looked at. What has not the usual form has no class and is judged by itself.
+"""
+
+from __future__ import annotations
+
+_REQUEST, _RESPONSE, _ERROR, _UNCONFIRMED = 0xA0, 0xA1, 0xA2, 0xA3
+_INTEGER, _IMPLICIT = 0x02, 0x80
+_INVOKE = {_REQUEST: _INTEGER, _RESPONSE: _INTEGER, _ERROR: _IMPLICIT}
+"""By the PDU's first octet: the first octet of its invokeID, which stands first in it."""
+
+
+def split(octets: bytes) -> tuple[bytes, int | None] | None:
+    """The octets without the invokeID, and that; ``None`` where the PDU is of another kind.
+
+    Two PDUs of which the rest is the same, and the invokeIDs are as long, differ in nothing else.
+    """
+    kind = octets[0] if octets else 0
+    if kind == _UNCONFIRMED:
+        return octets, None
+    tag = _INVOKE.get(kind)
+    if tag is None or len(octets) < 5:
+        return None
+    at = 2 if octets[1] < 0x80 else 2 + (octets[1] & 0x7F)
+    if at + 2 > len(octets) or octets[at] != tag:
+        return None
+    size = octets[at + 1]
+    begin, end = at + 2, at + 2 + size
+    if not 0 < size <= 5 or end > len(octets):
+        return None
+    invoke = int.from_bytes(octets[begin:end], signed=True)
+    # What is no Unsigned32, or takes more octets than it needs, is not what the others of its class are.
+    if not 0 <= invoke < 1 << 32 or size != (invoke.bit_length() + 8) // 8:
+        return None
+    return octets[:begin] + octets[end:], invoke

@@ -1,0 +1,226 @@
+"""A device whose automaton builds itself: what it has seen once it need not think about again.
+
+A step that told nothing is remembered: from which state, by which class of events, to which state. Where the
+conversation repeats itself, a look into a table is all; where it does not, the device itself is asked. Tables
+are bounded: what is forgotten costs time, never a finding.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+from mmsverify.audit.classes import split
+from mmsverify.audit.device import Device
+from mmsverify.audit.marks import Index, InvokeId
+from mmsverify.audit.snapshots import Mark, Snapshot, Snapshots
+from mmsverify.concrete.belief.partial import Key
+from mmsverify.formats.trace import Channel, TraceMessage
+from mmsverify.results import Finding
+
+LARGEST = 64 << 20
+"""Octets of states that are kept of one device."""
+_MOST_STEPS = 1 << 19
+MOST_CLASSES = 1 << 16
+_PRESENT = -1  # a mark that comes from the message itself
+_NEW = -1  # an invokeID that is none of the state's
+
+Data = tuple[int, int, Channel, bytes]
+"""A message: its index, its time, its channel, its octets."""
+
+
+@dataclass(slots=True, eq=False)
+class _State:
+    """A state of the device: how to put it back, and which of its marks are invokeIDs."""
+
+    octets: bytes
+    kinds: tuple[type, ...]
+    invokes: tuple[int, ...]
+
+
+@dataclass(slots=True, eq=False)
+class _Step:
+    """What a class of events does in a state: where each mark of the next state comes from.
+
+    ``sources``: by number, those of the state before, or the message (or its invokeID, where true stands
+    beside); ``None`` where nothing changes.
+    ``wrote``: the cells of the belief that it wrote, with what made them so.
+    """
+
+    target: _State
+    sources: tuple[tuple[int, bool], ...] | None
+    wrote: dict[Key, tuple[str, ...]]
+
+
+@dataclass(slots=True)
+class _Tables:
+    """What has been learned."""
+
+    states: dict[tuple[bytes, tuple[int, ...], int], _State] = field(default_factory=dict)
+    steps: dict[tuple[int, int, int], _Step] = field(default_factory=dict)
+    classes: dict[tuple[int, bytes], int] = field(default_factory=dict)
+    size: int = 0
+
+
+class LearnedDevice:
+    """A device and what was learned of it. ``exact``: nothing is, and every message is judged by itself."""
+
+    def __init__(self, device: Device, *, exact: bool = False) -> None:
+        self._exact = exact
+        self._device: Device | None = device
+        self._history = device.history
+        self._world = device.belief.world
+        self._blind = max((last for _, last in device.blind), default=-1)
+        self._snapshots = Snapshots()
+        self._tables = _Tables()
+        self._channels: dict[int, int] = {}
+        self._state: _State | None = None
+        self._marks: list[Any] = []
+        self._pending: dict[_Step, int] = {}  # steps whose writing the history does not know yet
+        self._seen: set[int] = set()
+
+    def link(self, connection: str, event: str, message: TraceMessage) -> Iterator[Finding]:
+        """A connection opens, closes, is reset, or has a gap."""
+        device = self._awake()
+        self._state = None
+        yield from device.link(connection, event, _marked(message))
+
+    def message(self, index: int, time: int, channel: Channel, data: bytes) -> Iterator[Finding] | tuple[()]:
+        """The findings of one MMS message, mostly none."""
+        parts = split(data)
+        if parts is None or index <= self._blind or self._exact:
+            return self._alone(TraceMessage(Index(index), time, channel, data))
+        rest, invoke = parts
+        number = self._class(channel, rest)
+        state = self._state
+        if state is None:
+            return self._learn(number, invoke, TraceMessage(Index(index), time, channel, data))
+        marks = self._marks
+        relation = _NEW
+        if invoke is not None:
+            for place in state.invokes:
+                if marks[place] == invoke:
+                    relation = place
+        step = self._tables.steps.get((id(state), number, relation))
+        if step is None:
+            return self._learn(number, invoke, TraceMessage(Index(index), time, channel, data))
+        if step.sources is not None:
+            present: Data | int = (index, time, channel, data)
+            self._marks = [
+                marks[source] if source >= 0 else (invoke if fresh else present)
+                for source, fresh in step.sources
+            ]
+        if step.wrote:
+            self._pending[step] = index
+        self._state = step.target
+        self._device = None
+        return ()
+
+    # The exact way.
+
+    def _alone(self, message: TraceMessage) -> Iterator[Finding]:
+        device = self._awake()
+        self._state = None
+        yield from device.message(message)
+
+    def _learn(self, number: int, invoke: int | None, message: TraceMessage) -> Iterator[Finding]:
+        """Ask the device, and remember the step if it told nothing; the first of a class is only noted."""
+        device = self._awake()
+        if number not in self._seen:
+            self._seen.add(number)
+            self._state = None
+            yield from device.message(message)
+            return
+        if self._state is None:
+            self._intern(device)
+        before, marks = self._state, list(self._marks)
+        relation = next((n for n in before.invokes if marks[n] == invoke), _NEW) if before else _NEW
+        told = False
+        for finding in device.message(message):
+            told = True
+            yield finding
+        remembered = self._history.told_at(message.index)
+        self._intern(device)
+        if told or remembered or before is None or self._state is None:
+            return
+        sources = self._sources(marks, message, invoke)
+        if sources is not None and len(self._tables.steps) < _MOST_STEPS:
+            same = before is self._state and sources == tuple(range(len(marks)))
+            fresh = tuple(zip(sources, (kind is InvokeId for kind in self._state.kinds), strict=True))
+            step = _Step(self._state, None if same else fresh, self._history.written_at(message.index))
+            self._tables.steps[id(before), number, relation] = step
+
+    def _awake(self) -> Device:
+        """The device itself, in the state that the tables have led to."""
+        if self._pending:
+            self._history.write_down((step.wrote, index) for step, index in self._pending.items())
+            self._pending.clear()
+        if self._device is None:
+            assert self._state is not None
+            kinds = self._state.kinds
+            marks = [_mark(kind, mark) for kind, mark in zip(kinds, self._marks, strict=True)]
+            self._marks = list(marks)
+            self._device = self._snapshots.put_back(self._state.octets, marks)
+        return self._device
+
+    def _intern(self, device: Device) -> None:
+        """Find out in which state the device is."""
+        device.belief.listen()  # what the last message showed is forgotten when the next one comes
+        taken = self._snapshots.take(device)
+        self._marks = list(taken.marks)
+        self._state = self._known(taken)
+
+    def _known(self, taken: Snapshot) -> _State:
+        tables = self._tables
+        key = taken.octets, taken.order, self._world.size
+        if key not in tables.states:
+            if tables.size + len(taken.octets) > LARGEST:
+                self._tables = tables = _Tables(classes=tables.classes)
+            kinds = tuple(type(mark) for mark in taken.marks)
+            invokes = tuple(n for n, kind in enumerate(kinds) if kind is InvokeId)
+            tables.states[key] = _State(taken.octets, kinds, invokes)
+            tables.size += len(taken.octets)
+        return tables.states[key]
+
+    def _sources(self, marks: list[Any], message: TraceMessage, invoke: int | None) -> tuple[int, ...] | None:
+        """Where the marks of the present state come from; ``None`` where one comes from nowhere."""
+        before = {_name(mark): place for place, mark in reversed(list(enumerate(marks)))}
+        found: list[int] = []
+        for mark in self._marks:
+            place = before.get(_name(mark), _PRESENT)
+            if place == _PRESENT and _name(mark)[1] != (invoke if type(mark) is InvokeId else message.index):
+                return None
+            found.append(place)
+        return tuple(found)
+
+    def _class(self, channel: Channel, rest: bytes) -> int:
+        channels = self._channels.setdefault(id(channel), len(self._channels))
+        classes = self._tables.classes
+        key = channels, rest
+        number = classes.get(key)
+        if number is None:
+            if len(classes) >= MOST_CLASSES:
+                classes.clear()
+                self._seen.clear()
+                self._tables.steps.clear()
+            number = classes[key] = len(classes)
+        return number
+
+
+def _marked(message: TraceMessage) -> TraceMessage:
+    return TraceMessage(Index(message.index), message.time, message.channel, message.data)
+
+
+def _name(mark: Mark) -> tuple[str, int]:
+    if isinstance(mark, TraceMessage):
+        return "message", mark.index
+    return type(mark).__name__, int(mark)
+
+
+def _mark(kind: type, mark: Any) -> Any:
+    """A mark as the device holds it: of a message that only passed by, the table kept what it was."""
+    if not isinstance(mark, tuple):
+        return InvokeId(mark) if kind is InvokeId else mark
+    index, time, channel, data = mark
+    return Index(index) if kind is Index else TraceMessage(Index(index), time, channel, data)

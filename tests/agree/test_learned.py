@@ -1,0 +1,138 @@
+"""What was learned tells the same as thinking: audits by the automaton that builds itself, and without it.
+
+Conversations are random, conforming and otherwise: stretches of them are said again and again, out of place,
+so that what was learned of one moment meets another.
+"""
+
+from __future__ import annotations
+
+import random
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from mmsverify.audit import learned
+from mmsverify.audit.classes import split
+from mmsverify.auditing import audit_traces
+from mmsverify.formats.mcap import TraceWriter, read_trace
+from mmsverify.formats.mms import Pdu, encode
+from mmsverify.formats.trace import TraceMessage
+from mmsverify.resources import traces_dir
+from mmsverify.results import Finding
+
+sys.path.append(str(Path(__file__).parents[1] / "quality"))
+
+from robot_conversations import conversation
+
+SAMPLES = sorted(traces_dir().glob("*.mcap"))
+
+
+def told(path: Path, *, exact: bool) -> list[Finding]:
+    return list(audit_traces([path], profile=None, model=None, exact=exact).findings)
+
+
+@pytest.mark.parametrize("path", SAMPLES, ids=lambda path: path.stem)
+def test_the_samples_are_told_alike(path: Path) -> None:
+    assert told(path, exact=False) == told(path, exact=True)
+
+
+def repeated(messages: list[TraceMessage], chance: random.Random, count: int) -> Iterator[TraceMessage]:
+    """The messages, and then stretches of them: some many times over."""
+    yield from messages
+    for _ in range(count):
+        begin = chance.randrange(len(messages))
+        stretch = messages[begin : begin + chance.choice([1, 2, 4, 8, 16])]
+        for _ in range(chance.choice([1, 1, 3, 6])):
+            yield from stretch
+
+
+def muddle(seed: int, path: Path, count: int) -> None:
+    conversation(seed, 60).write(path)
+    trace = read_trace(path)
+    messages, profile = list(trace), trace.profile
+    with TraceWriter(path) as writer:
+        writer.add_profile(profile)
+        for number, message in enumerate(repeated(messages, random.Random(seed), count), 1):
+            writer.add(number * 1_000_000, message.channel, message.data)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_muddled_conversations_are_told_alike(seed: int, tmp_path: Path) -> None:
+    path = tmp_path / "made.mcap"
+    muddle(seed, path, 12)
+    assert told(path, exact=False) == told(path, exact=True)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", range(100, 140))
+def test_many_muddled_conversations_are_told_alike(seed: int, tmp_path: Path) -> None:
+    path = tmp_path / "made.mcap"
+    muddle(seed, path, 30)
+    assert told(path, exact=False) == told(path, exact=True)
+
+
+def test_what_is_forgotten_costs_no_finding(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(learned, "LARGEST", 100_000)
+    monkeypatch.setattr(learned, "MOST_CLASSES", 20)
+    path = tmp_path / "made.mcap"
+    muddle(3, path, 20)
+    assert told(path, exact=False) == told(path, exact=True)
+
+
+def test_a_conversation_that_repeats_itself_is_not_thought_about(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from mmsverify.audit.device import Device
+
+    asked = 0
+    judged = Device.message
+
+    def counted(device: Device, message: TraceMessage) -> Iterator[Finding]:
+        nonlocal asked
+        asked += 1
+        return judged(device, message)
+
+    monkeypatch.setattr(Device, "message", counted)
+    path = tmp_path / "made.mcap"
+    status = [m for m in read_trace(traces_dir() / "production-run.mcap") if m.message_encoding == "mms-ber"]
+    with TraceWriter(path) as writer:
+        for number in range(500):
+            for at, side in enumerate(status[2:4]):
+                writer.add(1 + 10 * number + at, side.channel, side.data)
+    assert told(path, exact=False) == []
+    assert asked < 20
+
+
+kinds = st.sampled_from(["confirmed-RequestPDU", "confirmed-ResponsePDU"])
+
+
+@given(kinds, st.integers(0, 2**32 - 1), st.integers(0, 2**32 - 1))
+def test_a_class_is_what_is_left_without_the_invoke_id(kind: str, one: int, other: int) -> None:
+    body = {"confirmed-RequestPDU": False, "confirmed-ResponsePDU": "cell"}[kind]
+    service = {"confirmed-RequestPDU": "status", "confirmed-ResponsePDU": "vMDStop"}[kind]
+    pdus = [
+        encode(Pdu(kind, number, service, body if service == "status" else None)) for number in (one, other)
+    ]
+    first, second = (split(octets) for octets in pdus)
+    assert first is not None
+    assert second is not None
+    assert (first[1], second[1]) == (one, other)
+    same_size = len(pdus[0]) == len(pdus[1])
+    assert (first[0] == second[0]) == same_size
+
+
+@pytest.mark.parametrize(
+    "octets", ["a006020200058000", "a0050201ff8000", "a00a02060001000000008000", "a0030205", "a0"]
+)
+def test_an_invoke_id_of_an_unusual_form_makes_no_class(octets: str) -> None:
+    assert split(bytes.fromhex(octets)) is None
+
+
+@given(st.binary(max_size=20))
+def test_octets_of_any_kind_have_a_class_or_none(octets: bytes) -> None:
+    parts = split(octets)
+    assert parts is None or set(parts[0]) <= set(octets)
