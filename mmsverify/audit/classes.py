@@ -27,10 +27,10 @@ def split(octets: bytes) -> tuple[bytes, int | None] | None:
         return None
     size = octets[at + 1]
     begin, end = at + 2, at + 2 + size
-    if not 0 < size <= 5 or end > len(octets):
+    if not 0 < size <= 4 or end > len(octets):
         return None
     invoke = int.from_bytes(octets[begin:end], signed=True)
-    # What is no Unsigned32, or takes more octets than it needs, is not what the others of its class are.
-    if not 0 <= invoke < 1 << 32 or size != (invoke.bit_length() + 8) // 8:
+    # What is negative, or takes more octets than it needs, is not what the others of its class are.
+    if invoke < 0 or size != (invoke.bit_length() + 8) // 8:
         return None
     return octets[:begin] + octets[end:], invoke
