@@ -7,7 +7,7 @@ are bounded: what is forgotten costs time, never a finding.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -26,17 +26,22 @@ MOST_CLASSES = 1 << 16
 _PRESENT = -1  # a mark that comes from the message itself
 _NEW = -1  # an invokeID that is none of the state's
 
+Listener = Callable[[int, int, Channel, bytes], Iterator[Finding] | tuple[()]]
 Data = tuple[int, int, Channel, bytes]
 """A message: its index, its time, its channel, its octets."""
 
 
 @dataclass(slots=True, eq=False)
 class _State:
-    """A state of the device: how to put it back, and which of its marks are invokeIDs."""
+    """A state of the device: how to put it back, which of its marks are invokeIDs, and the steps from it.
+
+    Steps are by class of events, and by the mark that is the event's invokeID.
+    """
 
     octets: bytes
     kinds: tuple[type, ...]
     invokes: tuple[int, ...]
+    steps: dict[tuple[int, int], _Step] = field(default_factory=dict)
 
 
 @dataclass(slots=True, eq=False)
@@ -53,16 +58,6 @@ class _Step:
     wrote: dict[Key, tuple[str, ...]]
 
 
-@dataclass(slots=True)
-class _Tables:
-    """What has been learned."""
-
-    states: dict[tuple[bytes, tuple[int, ...], int], _State] = field(default_factory=dict)
-    steps: dict[tuple[int, int, int], _Step] = field(default_factory=dict)
-    classes: dict[tuple[int, bytes], int] = field(default_factory=dict)
-    size: int = 0
-
-
 class LearnedDevice:
     """A device and what was learned of it. ``exact``: nothing is, and every message is judged by itself."""
 
@@ -72,9 +67,10 @@ class LearnedDevice:
         self._history = device.history
         self._world = device.belief.world
         self._blind = max((last for _, last in device.blind), default=-1)
-        self._snapshots = Snapshots()
-        self._tables = _Tables()
-        self._channels: dict[int, int] = {}
+        self._snapshots = Snapshots(device.belief.model)
+        self._states: dict[tuple[bytes, tuple[int, ...], int], _State] = {}
+        self._size = self._steps = self._numbers = 0
+        self._classes: list[dict[bytes, int]] = []
         self._state: _State | None = None
         self._marks: list[Any] = []
         self._pending: dict[_Step, int] = {}  # steps whose writing the history does not know yet
@@ -86,36 +82,43 @@ class LearnedDevice:
         self._state = None
         yield from device.link(connection, event, _marked(message))
 
-    def message(self, index: int, time: int, channel: Channel, data: bytes) -> Iterator[Finding] | tuple[()]:
-        """The findings of one MMS message, mostly none."""
-        parts = split(data)
-        if parts is None or index <= self._blind or self._exact:
-            return self._alone(TraceMessage(Index(index), time, channel, data))
-        rest, invoke = parts
-        number = self._class(channel, rest)
-        state = self._state
-        if state is None:
-            return self._learn(number, invoke, TraceMessage(Index(index), time, channel, data))
-        marks = self._marks
-        relation = _NEW
-        if invoke is not None:
-            for place in state.invokes:
-                if marks[place] == invoke:
-                    relation = place
-        step = self._tables.steps.get((id(state), number, relation))
-        if step is None:
-            return self._learn(number, invoke, TraceMessage(Index(index), time, channel, data))
-        if step.sources is not None:
-            present: Data | int = (index, time, channel, data)
-            self._marks = [
-                marks[source] if source >= 0 else (invoke if fresh else present)
-                for source, fresh in step.sources
-            ]
-        if step.wrote:
-            self._pending[step] = index
-        self._state = step.target
-        self._device = None
-        return ()
+    def listener(self) -> Listener:
+        """Who takes in the messages of one channel, and gives their findings: mostly none."""
+        classes: dict[bytes, int] = {}
+        self._classes.append(classes)
+        # Nearly all that is done in a long audit is done here: whatever is looked up often is at hand.
+        exact, blind, pending = self._exact, self._blind, self._pending
+
+        def heard(index: int, time: int, channel: Channel, data: bytes) -> Iterator[Finding] | tuple[()]:
+            parts = split(data)
+            if parts is None or exact or index <= blind:
+                return self._alone(TraceMessage(Index(index), time, channel, data))
+            rest, invoke = parts
+            number = classes.get(rest) or self._class(classes, rest)
+            state = self._state
+            if state is None:
+                return self._learn(number, invoke, TraceMessage(Index(index), time, channel, data))
+            relation = _NEW
+            if invoke is not None:
+                for place in state.invokes:
+                    if self._marks[place] == invoke:
+                        relation = place
+            step = state.steps.get((number, relation))
+            if step is None:
+                return self._learn(number, invoke, TraceMessage(Index(index), time, channel, data))
+            if step.sources is not None:
+                marks, present = self._marks, (index, time, channel, data)
+                self._marks = [
+                    marks[source] if source >= 0 else (invoke if fresh else present)
+                    for source, fresh in step.sources
+                ]
+            if step.wrote:
+                pending[step] = index
+            self._state = step.target
+            self._device = None
+            return ()
+
+        return heard
 
     # The exact way.
 
@@ -145,11 +148,12 @@ class LearnedDevice:
         if told or remembered or before is None or self._state is None:
             return
         sources = self._sources(marks, message, invoke)
-        if sources is not None and len(self._tables.steps) < _MOST_STEPS:
+        if sources is not None and self._steps < _MOST_STEPS:
             same = before is self._state and sources == tuple(range(len(marks)))
             fresh = tuple(zip(sources, (kind is InvokeId for kind in self._state.kinds), strict=True))
             step = _Step(self._state, None if same else fresh, self._history.written_at(message.index))
-            self._tables.steps[id(before), number, relation] = step
+            before.steps[number, relation] = step
+            self._steps += 1
 
     def _awake(self) -> Device:
         """The device itself, in the state that the tables have led to."""
@@ -172,16 +176,15 @@ class LearnedDevice:
         self._state = self._known(taken)
 
     def _known(self, taken: Snapshot) -> _State:
-        tables = self._tables
         key = taken.octets, taken.order, self._world.size
-        if key not in tables.states:
-            if tables.size + len(taken.octets) > LARGEST:
-                self._tables = tables = _Tables(classes=tables.classes)
+        if key not in self._states:
+            if self._size + len(taken.octets) > LARGEST:
+                self._forget()
             kinds = tuple(type(mark) for mark in taken.marks)
             invokes = tuple(n for n, kind in enumerate(kinds) if kind is InvokeId)
-            tables.states[key] = _State(taken.octets, kinds, invokes)
-            tables.size += len(taken.octets)
-        return tables.states[key]
+            self._states[key] = _State(taken.octets, kinds, invokes)
+            self._size += len(taken.octets)
+        return self._states[key]
 
     def _sources(self, marks: list[Any], message: TraceMessage, invoke: int | None) -> tuple[int, ...] | None:
         """Where the marks of the present state come from; ``None`` where one comes from nowhere."""
@@ -194,18 +197,21 @@ class LearnedDevice:
             found.append(place)
         return tuple(found)
 
-    def _class(self, channel: Channel, rest: bytes) -> int:
-        channels = self._channels.setdefault(id(channel), len(self._channels))
-        classes = self._tables.classes
-        key = channels, rest
-        number = classes.get(key)
-        if number is None:
-            if len(classes) >= MOST_CLASSES:
-                classes.clear()
-                self._seen.clear()
-                self._tables.steps.clear()
-            number = classes[key] = len(classes)
-        return number
+    def _class(self, classes: dict[bytes, int], rest: bytes) -> int:
+        """The number of a class that has none yet, from 1; none is used twice."""
+        if self._numbers % MOST_CLASSES == MOST_CLASSES - 1:
+            for each in self._classes:
+                each.clear()
+            self._seen.clear()
+            self._forget()
+        self._numbers += 1
+        classes[rest] = self._numbers
+        return self._numbers
+
+    def _forget(self) -> None:
+        """Make room: what was learned is learned anew."""
+        self._states.clear()
+        self._size = self._steps = 0
 
 
 def _marked(message: TraceMessage) -> TraceMessage:

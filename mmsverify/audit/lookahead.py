@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import json
 from collections import defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
@@ -18,8 +18,9 @@ from mmsverify.audit.exchange import ANSWERS, OTHER_SIDE
 from mmsverify.audit.negotiation import ADDITIONAL
 from mmsverify.errors import DecodeError, InputError
 from mmsverify.formats import mms
+from mmsverify.formats.mcap import McapTrace
 from mmsverify.formats.mms import Pdu
-from mmsverify.formats.trace import TraceMessage
+from mmsverify.formats.trace import Channel, TraceMessage
 
 INITIATES = (b"\xa8", b"\xa9")
 WAITS = 100
@@ -52,7 +53,9 @@ class _Requests:
     def hears(self) -> bool:
         """Whether one more message may be the answer to a request that is missing."""
         self.heard += 1
-        return self.since is not None and self.heard <= WAITS
+        if self.heard > WAITS:
+            self.since = None
+        return self.since is not None
 
     def answers_unseen(self, sender: str, pdu: Pdu) -> bool:
         """Whether it is the answer to a missing request that may have changed the robot's state.
@@ -76,29 +79,54 @@ class Lookahead:
     Their Initiate shows no additional services, and no robot detail follows.
     """
 
-    def __init__(self, messages: Iterable[TraceMessage]) -> None:
+    def __init__(self, trace: McapTrace) -> None:
         self._begun: dict[Key, bool] = {}
         self._requests: dict[Key, _Requests] = defaultdict(_Requests)
         self._blind: dict[Key, list[Span]] = defaultdict(list)
         with suppress(InputError):  # what cannot be read on is told when it is judged
-            for message in messages:
-                self._look(message)
+            self._look(trace)
         self.base_only = frozenset(key for key, robot in self._begun.items() if not robot)
 
-    def _look(self, message: TraceMessage) -> None:
-        if message.message_encoding == "mms-ber":
-            self._heard(message)
-        elif (happened := link(message)) is not None:
+    def _look(self, trace: McapTrace) -> None:
+        """Look at all messages; of an association of which all is known, at those of Initiate only."""
+        index = -1
+        keys: dict[int, tuple[Channel, Key | None]] = {}
+        settled: set[Key | None] = set()
+        for batch in trace.batches():
+            for time, _, channel, data in batch:
+                index += 1
+                known = keys.get(id(channel))
+                if known is None:
+                    known = keys[id(channel)] = channel, _association(channel)
+                key = known[1]
+                if key in settled and data[:1] not in INITIATES:
+                    continue
+                message = TraceMessage(index, time, channel, data)
+                if key is None:
+                    self._linked(message, settled)
+                    continue
+                self._heard(key, message)
+                if self._settled(key):
+                    settled.add(key)
+                else:
+                    settled.discard(key)
+
+    def _settled(self, key: Key) -> bool:
+        """Whether no message but Initiate and links can tell anything new."""
+        return self._requests[key].since is None and self._begun.get(key, True)
+
+    def _linked(self, message: TraceMessage, settled: set[Key | None]) -> None:
+        if (happened := link(message)) is not None:
             key = message.metadata.get("name", ""), happened[0]
             self._requests[key].begin(message.index if happened[1] == "gap" else None)
+            settled.discard(key)
 
     def blind(self, vmd: str) -> list[Span]:
         """Where requests to that device may be waiting that the recording does not show."""
         spans = [(k, s) for k, found in self._blind.items() for s in found]
         return sorted(span for key, span in spans if key[0] == vmd and key not in self.base_only)
 
-    def _heard(self, message: TraceMessage) -> None:
-        key = (message.metadata.get("vmd", ""), message.metadata.get("association", ""))
+    def _heard(self, key: Key, message: TraceMessage) -> None:
         requests = self._requests[key]
         if message.data[:1] in INITIATES:
             self._begun[key] = self._begun.get(key, False) or _offers_additional(message.data)
@@ -110,6 +138,13 @@ class Lookahead:
             for pdu in _decoded(message.data):
                 if requests.answers_unseen(message.metadata.get("sender", "client"), pdu):
                     self._blind[key].append((requests.since or 0, message.index))
+
+
+def _association(channel: Channel) -> Key | None:
+    """Whose messages stand on an MMS channel; ``None`` for any other channel."""
+    if channel.message_encoding != "mms-ber":
+        return None
+    return channel.metadata.get("vmd", ""), channel.metadata.get("association", "")
 
 
 def link(message: TraceMessage, wanted: str = "mms") -> tuple[str, str] | None:

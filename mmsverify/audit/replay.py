@@ -5,7 +5,7 @@ What a message means to its device is told in ``device``.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from typing import Any
 
@@ -23,7 +23,7 @@ from mmsverify.concrete.machine import Machine
 from mmsverify.concrete.scope import scope_for
 from mmsverify.errors import ProfileError, UsageError
 from mmsverify.formats.mcap import McapTrace
-from mmsverify.formats.trace import TraceMessage
+from mmsverify.formats.trace import Channel, TraceMessage
 from mmsverify.model import Claim, ModelData, load
 from mmsverify.model.load import made_for
 from mmsverify.resources import models_dir
@@ -32,6 +32,8 @@ from mmsverify.results import Finding
 ROBOT, FRAMEWORK, SIGNALS = "mms-robot", "vr-template", "modbus-signals"
 SAMPLES = "vr.Sample"
 PROVED = "repaired"
+Judge = Callable[[int, int, Channel, bytes], Iterator[Finding] | tuple[()]]
+"""Takes a message, by index, time, channel and octets, and gives its findings."""
 Tables = Mapping[str, Mapping[str, Any]]
 
 
@@ -59,28 +61,45 @@ class Replay:
 
     def run(self) -> Iterator[Finding]:
         """The findings, in event order."""
-        for message in self.trace:
-            self.messages += 1
-            if message.message_encoding == "mms-ber" and self._asked in (None, ROBOT):
-                self.events += 1
-                device = self._device(message.metadata.get("vmd", ""))
-                yield from device.message(message.index, message.time, message.channel, message.data)
-            elif message.schema_name == SAMPLES and self._asked in (None, FRAMEWORK):
-                self.events += 1
-                yield from self.controller(message).sample(message)
-            elif message.message_encoding == "modbus-tcp" and self._asked in (None, SIGNALS):
-                self.events += 1
-                yield from self._server(message.metadata.get("controller", "")).message(message)
-            elif (happened := link(message)) is not None:
-                self.events += 1
-                yield from self._device(message.metadata.get("name", "")).link(*happened, message)
-            elif (happened := link(message, "modbus")) is not None:
-                self.events += 1
-                self._server(message.metadata.get("name", "")).link(*happened, message)
-            else:
-                self.skipped += 1
+        judges: dict[int, Judge] = {}
+        channels = []  # kept, so that no two have the same identity
+        index = -1
+        try:
+            for batch in self.trace.batches():
+                for time, _, channel, data in batch:
+                    index += 1
+                    judge = judges.get(id(channel))
+                    if judge is None:
+                        channels.append(channel)
+                        judge = judges[id(channel)] = self._judge(channel)
+                    found = judge(index, time, channel, data)
+                    if found:
+                        yield from found
+        finally:
+            self.messages = index + 1
+            self.events = self.messages - self.skipped
         for server in self._servers.values():
             yield from server.end()
+
+    def _judge(self, channel: Channel) -> Judge:
+        """Who judges the messages of a channel."""
+        encoding, names = channel.message_encoding, channel.metadata
+        if encoding == "mms-ber" and self._asked in (None, ROBOT):
+            return self._device(names.get("vmd", "")).listener()
+        if channel.schema_name == SAMPLES and self._asked in (None, FRAMEWORK):
+            return _whole(lambda message: self.controller(message).sample(message))
+        if encoding == "modbus-tcp" and self._asked in (None, SIGNALS):
+            return _whole(self._server(names.get("controller", "")).message)
+        return _whole(self._beside)
+
+    def _beside(self, message: TraceMessage) -> Iterator[Finding]:
+        """A link event, or what nobody knows."""
+        if (happened := link(message)) is not None:
+            yield from self._device(message.metadata.get("name", "")).link(*happened, message)
+        elif (happened := link(message, "modbus")) is not None:
+            self._server(message.metadata.get("name", "")).link(*happened, message)
+        else:
+            self.skipped += 1
 
     def controller(self, message: TraceMessage) -> Controller:
         """The controller whose sample a message is."""
@@ -157,6 +176,11 @@ class Replay:
         """The domains that represent an arm: those of the arms among the devices of the profile."""
         devices = self.profile.get("devices", ())
         return frozenset(device["domain"] for device in devices if device["kind"] == "arm")
+
+
+def _whole(judge: Callable[[TraceMessage], Iterator[Finding]]) -> Judge:
+    """A judge of whole messages."""
+    return lambda index, time, channel, data: judge(TraceMessage(index, time, channel, data))
 
 
 def _known(model: str | None) -> str | None:

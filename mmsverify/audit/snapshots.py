@@ -11,7 +11,7 @@ from __future__ import annotations
 import enum
 import io
 import pickle
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -25,10 +25,10 @@ from mmsverify.concrete.belief.partial import World
 from mmsverify.concrete.belief.ready import Rows
 from mmsverify.formats.trace import TraceMessage
 from mmsverify.model import ModelData, Row
+from mmsverify.model.sorts import EnumSort
 
 Mark = TraceMessage | Index | InvokeId
 _SHARED = (ModelData, Row, World, Ground, Rows, Constraints, Unseen, Coverage, History, Place)
-_NAMES = {TraceMessage: "message", Index: "index", InvokeId: "invoke"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,13 +46,18 @@ class Snapshot:
 class Snapshots:
     """Takes and puts back the states of one device."""
 
-    def __init__(self) -> None:
+    def __init__(self, model: ModelData) -> None:
         self._shared: dict[int, Any] = {}
+        # Members of enumerations come from model files, which no unpickler could import.
+        sorts = (sort for row in model.rows for sort in (p.of for p in row.on.parameters))
+        signatures = (sort for each in model.signatures.values() for sort in (each.of, *each.sorts))
+        found = (sort.members for sort in (*sorts, *signatures) if isinstance(sort, EnumSort))
+        self._others: set[type] = {enum.EnumMeta, *(type(member) for members in found for member in members)}
 
     def take(self, state: object) -> Snapshot:
         """What a state is, as octets and marks."""
         file = io.BytesIO()
-        pickler = _Pickler(file, self._shared)
+        pickler = _Pickler(file, self._shared, self._others)
         pickler.dump(state)
         marks = tuple(pickler.marks.values())
         places = [mark.index if isinstance(mark, TraceMessage) else int(mark) for mark in marks]
@@ -64,31 +69,41 @@ class Snapshots:
         return _Unpickler(io.BytesIO(octets), self._shared, marks).load()
 
 
-class _Pickler(pickle.Pickler):
-    def __init__(self, file: io.BytesIO, shared: dict[int, Any]) -> None:
-        super().__init__(file, protocol=pickle.HIGHEST_PROTOCOL)
-        self.marks: dict[tuple[str, int], Mark] = {}
-        self._numbers: dict[tuple[str, int], int] = {}
-        self._shared = shared
+def _mark(number: int) -> Mark:
+    raise NotImplementedError("stands for a mark in the octets")
 
-    def persistent_id(self, value: Any) -> tuple[str, int] | None:
-        kind = type(value)
-        if kind in _NAMES:
-            key = _NAMES[kind], value.index if kind is TraceMessage else int(value)
-            self.marks.setdefault(key, value)
-            return "mark", self._numbers.setdefault(key, len(self._numbers))
-        # Members of enumerations come from model files, which no unpickler could import.
-        if isinstance(value, (*_SHARED, enum.Enum)) or kind is enum.EnumMeta:
-            self._shared[id(value)] = value
-            return "shared", id(value)
-        return None
+
+def _same(number: int) -> Any:
+    raise NotImplementedError("stands for what all states share")
+
+
+class _Pickler(pickle.Pickler):
+    """Leaves out marks and what is shared, by a table of types: to ask for each object would take long."""
+
+    def __init__(self, file: io.BytesIO, shared: dict[int, Any], others: Iterable[type]) -> None:
+        super().__init__(file, protocol=pickle.HIGHEST_PROTOCOL)
+        self.marks: dict[tuple[type, int], Mark] = {}
+        self._numbers: dict[tuple[type, int], int] = {}
+        self._shared = shared
+        self.dispatch_table = {
+            **dict.fromkeys((*_SHARED, *others), self._common),
+            **dict.fromkeys((Index, InvokeId, TraceMessage), self._marked),
+        }
+
+    def _marked(self, value: Mark) -> tuple[Any, ...]:
+        key = type(value), value.index if isinstance(value, TraceMessage) else int(value)
+        self.marks.setdefault(key, value)
+        return _mark, (self._numbers.setdefault(key, len(self._numbers)),)
+
+    def _common(self, value: Any) -> tuple[Any, ...]:
+        self._shared[id(value)] = value
+        return _same, (id(value),)
 
 
 class _Unpickler(pickle.Unpickler):
     def __init__(self, file: io.BytesIO, shared: dict[int, Any], marks: Sequence[Mark]) -> None:
         super().__init__(file)
-        self._shared, self._marks = shared, marks
+        self._instead = {"_mark": marks.__getitem__, "_same": shared.__getitem__}
 
-    def persistent_load(self, name: tuple[str, int]) -> Any:
-        kind, number = name
-        return self._marks[number] if kind == "mark" else self._shared[number]
+    def find_class(self, module: str, name: str) -> Any:
+        return self._instead.get(name) or super().find_class(module, name)
