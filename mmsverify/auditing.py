@@ -7,6 +7,8 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -16,13 +18,27 @@ from mmsverify.audit.spoken import Listener
 from mmsverify.errors import InputError, MmsverifyError, ProfileError
 from mmsverify.events import MmsEvent
 from mmsverify.formats.mcap import McapTrace, read_trace
-from mmsverify.profiles import from_metadata, load_profile, within_framework
+from mmsverify.profiles import for_recording, load_profile, within_framework
 from mmsverify.results import Audit, AuditedInput, Finding
 
 __all__ = ["annotate", "audit_traces", "read_events"]
 
 UNREADABLE = "input.unreadable"
 """The rule of a file that is no recording, or of the point at which one cannot be read on."""
+
+
+@dataclass(frozen=True, slots=True)
+class Manner:
+    """How recordings are to be audited.
+
+    ``exact``: each message is judged by itself, and not by what was learned from those before: slow, and the
+    same findings.
+    """
+
+    profile: Path | None = None
+    model: str | None = None
+    variant: str = "repaired"
+    exact: bool = False
 
 
 def audit_traces(
@@ -33,30 +49,46 @@ def audit_traces(
     variant: str = "repaired",
     progress: Callable[[str], None] | None = None,
     exact: bool = False,
+    jobs: int = 1,
 ) -> Audit:
     """Replay every trace against its model. An unreadable file is a finding; the others are audited.
 
-    ``exact``: each message is judged by itself, and not by what was learned from those before: slow, and the
-    same findings.
+    ``exact`` as in `Manner`; ``jobs``: so many processes share the work. The result is the same.
     """
-    tables = load_profile(profile)
+    manner = Manner(profile, model, variant, exact)
+    load_profile(profile)  # a bad one is told before any work is done
+    if jobs > 1 and len(paths) > 1:
+        from mmsverify.audit.sharing import shared
+
+        done = shared(partial(audit_trace, manner=manner), paths, jobs, progress)
+    else:
+        done = [_announced(path, manner, progress) for path in paths]
     inputs: list[AuditedInput] = []
     findings: list[Finding] = []
-    for path in paths:
-        if progress is not None:
-            progress(f"auditing {path}")
-        try:
-            trace = read_trace(path)
-            merged = tables if profile is not None else {**tables, **from_metadata(trace.profile, str(path))}
-            entry, found = _audit(trace, merged, model, variant, exact=exact)
-        except (InputError, ProfileError) as error:
-            if profile is not None and isinstance(error, ProfileError):
-                raise
-            findings.append(_unreadable(path, error))
-            continue
-        inputs.append(entry)
+    for entry, found in done:
+        inputs += [entry] if entry is not None else []
         findings += found
     return Audit(inputs, findings)
+
+
+def _announced(
+    path: Path, manner: Manner, progress: Callable[[str], None] | None
+) -> tuple[AuditedInput | None, list[Finding]]:
+    if progress is not None:
+        progress(f"auditing {path}")
+    return audit_trace(path, manner)
+
+
+def audit_trace(path: Path, manner: Manner) -> tuple[AuditedInput | None, list[Finding]]:
+    """Replay one trace; of one that cannot be read there is a finding that says so, and nothing else."""
+    try:
+        trace = read_trace(path)
+        tables = for_recording(manner.profile, trace.profile, str(path))
+        return _audit(trace, tables, manner)
+    except (InputError, ProfileError) as error:
+        if manner.profile is not None and isinstance(error, ProfileError):
+            raise
+        return None, [_unreadable(path, error)]
 
 
 def read_events(path: Path) -> Iterator[MmsEvent]:
@@ -65,15 +97,10 @@ def read_events(path: Path) -> Iterator[MmsEvent]:
 
 
 def _audit(
-    trace: McapTrace,
-    tables: Mapping[str, Mapping[str, Any]],
-    model: str | None,
-    variant: str,
-    *,
-    exact: bool = False,
+    trace: McapTrace, tables: Mapping[str, Mapping[str, Any]], manner: Manner
 ) -> tuple[AuditedInput, list[Finding]]:
     begin = time.perf_counter()
-    replay = Replay(trace, within_framework(tables), model, variant, exact=exact)
+    replay = Replay(trace, within_framework(tables), manner.model, manner.variant, exact=manner.exact)
     findings = list(_findings(replay, Path(trace.path)))
     if trace.truncated and not replay.messages and not findings:
         raise InputError(

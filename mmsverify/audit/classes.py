@@ -10,6 +10,9 @@ _INTEGER, _IMPLICIT = 0x02, 0x80
 _INVOKE = {_REQUEST: _INTEGER, _RESPONSE: _INTEGER, _ERROR: _IMPLICIT}
 """By the PDU's first octet: the first octet of its invokeID, which stands first in it."""
 
+USUAL = {kind: bytes([tag, 1]) for kind, tag in _INVOKE.items()}
+"""The third and the fourth octet of a short PDU with an invokeID of one octet, by the first."""
+
 
 def split(octets: bytes) -> tuple[bytes, int | None] | None:
     """The octets without the invokeID, and that; ``None`` where the PDU is of another kind.

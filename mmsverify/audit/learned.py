@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from mmsverify.audit.classes import split
+from mmsverify.audit.classes import USUAL, split
 from mmsverify.audit.device import Device
 from mmsverify.audit.marks import Index, InvokeId
 from mmsverify.audit.snapshots import Mark, Snapshot, Snapshots
@@ -90,9 +90,16 @@ class LearnedDevice:
         exact, blind, pending = self._exact, self._blind, self._pending
 
         def heard(index: int, time: int, channel: Channel, data: bytes) -> Iterator[Finding] | tuple[()]:
-            parts = split(data)
-            if parts is None or exact or index <= blind:
+            if exact or index <= blind:
                 return self._alone(TraceMessage(Index(index), time, channel, data))
+            parts: tuple[bytes, int | None] | None
+            # The first way is what `split` does, in short.
+            if len(data) > 4 and data[1] < 0x80 and data[2:4] == USUAL.get(data[0]) and data[4] < 0x80:
+                parts = data[:4] + data[5:], data[4]
+            else:
+                parts = split(data)
+                if parts is None:
+                    return self._alone(TraceMessage(Index(index), time, channel, data))
             rest, invoke = parts
             number = classes.get(rest) or self._class(classes, rest)
             state = self._state

@@ -33,6 +33,12 @@ def audit(
         Path | None,
         typer.Option("--annotate", metavar="OUT.mcap", help="Copy the trace with its violations added."),
     ] = None,
+    jobs: Annotated[
+        int, typer.Option("--jobs", metavar="N", min=1, max=256, help="So many processes share the traces.")
+    ] = 1,
+    exact: Annotated[
+        bool, typer.Option("--exact", help="Judge each message anew: slow, and the same findings.")
+    ] = False,
     output: Output = None,
     quiet: Quiet = False,
 ) -> int:
@@ -48,7 +54,9 @@ def audit(
     from mmsverify.auditing import audit_traces
 
     with progress(quiet=quiet) as report:
-        result = audit_traces(paths, profile=profile, model=model, variant=variant, progress=report)
+        result = audit_traces(
+            paths, profile=profile, model=model, variant=variant, progress=report, exact=exact, jobs=jobs
+        )
     _require_read(result)
     if annotate is not None:
         _annotate(paths[0], result, annotate, quiet=quiet)

@@ -30,6 +30,11 @@ class Recording:
         self._time = BEGIN
         self._messages: list[tuple[int, Channel, bytes]] = []
 
+    @property
+    def count(self) -> int:
+        """How many messages there are."""
+        return len(self._messages)
+
     def wait(self, seconds: float) -> None:
         """Nothing is said for a while."""
         self._time += round(seconds * 1000) * MILLISECOND
