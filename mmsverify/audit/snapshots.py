@@ -35,7 +35,8 @@ _SHARED = (ModelData, Row, World, Ground, Rows, Constraints, Unseen, Coverage, H
 class Snapshot:
     """A state: its octets, and what they leave out of it.
 
-    ``order``: which of the messages came before which, for that may matter though their places do not.
+    ``order``: which of the messages came before which, or are the same, for that may matter though their
+    places do not.
     """
 
     octets: bytes
@@ -60,13 +61,22 @@ class Snapshots:
         pickler = _Pickler(file, self._shared, self._others)
         pickler.dump(state)
         marks = tuple(pickler.marks.values())
-        places = [mark.index if isinstance(mark, TraceMessage) else int(mark) for mark in marks]
-        order = sorted(range(len(marks)), key=places.__getitem__)
-        return Snapshot(file.getvalue(), marks, tuple(n for n in order if not isinstance(marks[n], InvokeId)))
+        return Snapshot(file.getvalue(), marks, _order(marks))
 
     def put_back(self, octets: bytes, marks: Sequence[Mark]) -> Any:
         """The state anew, with these marks in the places of those it was taken with."""
         return _Unpickler(io.BytesIO(octets), self._shared, marks).load()
+
+
+def _order(marks: Sequence[Mark]) -> tuple[int, ...]:
+    """The rank of each message among those of the marks."""
+    places = [
+        mark.index if isinstance(mark, TraceMessage) else int(mark)
+        for mark in marks
+        if not isinstance(mark, InvokeId)
+    ]
+    ranks = {place: rank for rank, place in enumerate(sorted(set(places)))}
+    return tuple(ranks[place] for place in places)
 
 
 def _mark(number: int) -> Mark:

@@ -46,18 +46,23 @@ class Access:
         self._refusing: list[Row] = [
             row for row in model.actions if row.on.service == "request" and row.answer == MINUS
         ]
+        self._found: dict[tuple[int, str, bool], Conjunct | None] = {}
         # The text as written refuses nothing: there, these are empty.
         sorts = {p.name: p.of for row in self._refusing for p in row.on.parameters}
         self._functions, self._points = (_by_word(sorts.get(name)) for name in ("function", "points"))
 
     def refusal(self, request: Request, points: str) -> Conjunct | None:
         """The condition by which a request must be refused, if any."""
-        if not self._refusing:
-            return None
+        kind = request.function, points, not request.amiss
+        if kind not in self._found:
+            self._found[kind] = self._refusal(*kind) if self._refusing else None
+        return self._found[kind]
+
+    def _refusal(self, function: int, points: str, sound: bool) -> Conjunct | None:
         given: dict[str, Binding] = {
-            "function": self._functions[f"0x{request.function:02X}"],
+            "function": self._functions[f"0x{function:02X}"],
             "points": self._points[points],
-            "sound": not request.amiss,
+            "sound": sound,
         }
         at = Moment(self._scope, {}, given)
         refusing = (row.guard[-1] for row in self._refusing if holds(row.guard[-1].condition, at))
