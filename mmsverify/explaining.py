@@ -32,7 +32,7 @@ def explain_sample(
     for message in messages:
         last = message.index
         if message.schema_name == SAMPLES:
-            controller = replay.controller(message)
+            controller = replay.controller(message.channel)
             findings = list(controller.sample(message))
         if last == index:
             break
@@ -56,7 +56,7 @@ def _told_later(
 ) -> Iterator[Finding]:
     """What the controller's next sample shows to be wrong."""
     for message in messages:
-        if message.schema_name == SAMPLES and replay.controller(message) is controller:
+        if message.schema_name == SAMPLES and replay.controller(message.channel) is controller:
             yield from controller.sample(message)
             return
 

@@ -5,6 +5,8 @@ Only the head of a PDU is looked at. What has not the usual form has no class an
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 _REQUEST, _RESPONSE, _ERROR, _UNCONFIRMED = 0xA0, 0xA1, 0xA2, 0xA3
 _INTEGER, _IMPLICIT = 0x02, 0x80
 _INVOKE = {_REQUEST: _INTEGER, _RESPONSE: _INTEGER, _ERROR: _IMPLICIT}
@@ -12,6 +14,14 @@ _INVOKE = {_REQUEST: _INTEGER, _RESPONSE: _INTEGER, _ERROR: _IMPLICIT}
 
 USUAL = {kind: bytes([tag, 1]) for kind, tag in _INVOKE.items()}
 """The third and the fourth octet of a short PDU with an invokeID of one octet, by the first."""
+
+
+Split = Callable[[bytes], tuple[bytes, int | None] | None]
+
+
+def whole(octets: bytes) -> tuple[bytes, int | None]:
+    """A message in which nothing is an invokeID is its own class."""
+    return octets, None
 
 
 def split(octets: bytes) -> tuple[bytes, int | None] | None:

@@ -7,6 +7,7 @@ it announces in ``notifications``; how a finding is made in ``telling``.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import ClassVar
 
 from mmsverify.audit import contents
 from mmsverify.audit.acquaintance import Acquaintance
@@ -22,6 +23,12 @@ from mmsverify.audit.suspicion import alarming, of_caller, undecodable
 from mmsverify.audit.telling import History, Place, Telling
 from mmsverify.audit.transfers import UPLOADING, Transfers
 from mmsverify.concrete.belief import Belief
+from mmsverify.concrete.belief.constraints import Constraints
+from mmsverify.concrete.belief.coverage import Coverage
+from mmsverify.concrete.belief.ground import Ground
+from mmsverify.concrete.belief.internal import Unseen
+from mmsverify.concrete.belief.partial import World
+from mmsverify.concrete.belief.ready import Rows
 from mmsverify.errors import DecodeError
 from mmsverify.formats import mms
 from mmsverify.formats.mms import Pdu
@@ -60,10 +67,22 @@ class Device:
         self._conformance = Conformance()
         self._objects = Objects()
 
+    SHARED: ClassVar[tuple[type, ...]] = (World, Ground, Rows, Constraints, Unseen, Coverage, History, Place)
+    """The types of what all its states share."""
+
     @property
     def history(self) -> History:
         """What was written and told so far."""
         return self._telling.history
+
+    @property
+    def version(self) -> int:
+        """States are comparable only as long as it is the same: it tells new names."""
+        return self.belief.world.size
+
+    def settle(self) -> None:
+        """What the last message showed is forgotten when the next one comes: forget it now."""
+        self.belief.listen()
 
     # Links.
 

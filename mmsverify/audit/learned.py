@@ -1,4 +1,4 @@
-"""A device whose automaton builds itself: what it has seen once it need not think about again.
+"""A device or controller whose automaton builds itself: what it has seen once it need not think about again.
 
 A step that told nothing is remembered: from which state, by which class of events, to which state. Where the
 conversation repeats itself, a look into a table is all; where it does not, the device itself is asked. Tables
@@ -7,22 +7,25 @@ are bounded: what is forgotten costs time, never a finding.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, ClassVar, Generic, Protocol, TypeVar
 
-from mmsverify.audit.classes import USUAL, split
-from mmsverify.audit.device import Device
+from mmsverify.audit.classes import Split
 from mmsverify.audit.marks import Index, InvokeId
 from mmsverify.audit.snapshots import Mark, Snapshot, Snapshots
+from mmsverify.audit.telling import History
 from mmsverify.concrete.belief.partial import Key
 from mmsverify.formats.trace import Channel, TraceMessage
+from mmsverify.model import ModelData
 from mmsverify.results import Finding
 
 LARGEST = 64 << 20
 """Octets of states that are kept of one device."""
 _MOST_STEPS = 1 << 19
 MOST_CLASSES = 1 << 16
+_TRIAL = 256  # so many messages are not known, and then it is seen how many were
+_REST = 8192  # messages
 _PRESENT = -1  # a mark that comes from the message itself
 _NEW = -1  # an invokeID that is none of the state's
 
@@ -58,16 +61,43 @@ class _Step:
     wrote: dict[Key, tuple[str, ...]]
 
 
-class LearnedDevice:
-    """A device and what was learned of it. ``exact``: nothing is, and every message is judged by itself."""
+class Part(Protocol):
+    """What is audited: its messages go in, findings come out. ``SHARED`` are the types of what is no state.
 
-    def __init__(self, device: Device, *, exact: bool = False) -> None:
-        self._exact = exact
-        self._device: Device | None = device
-        self._history = device.history
-        self._world = device.belief.world
-        self._blind = max((last for _, last in device.blind), default=-1)
-        self._snapshots = Snapshots(device.belief.model)
+    ``version``: states are comparable only as long as it is the same.
+    """
+
+    SHARED: ClassVar[tuple[type, ...]]
+
+    @property
+    def history(self) -> History: ...
+    @property
+    def version(self) -> int: ...
+    def settle(self) -> None: ...
+
+
+P = TypeVar("P", bound=Part)
+
+
+class Learned(Generic[P]):
+    """A part, its model and what was learned of it; ``judge`` gives the findings of a message.
+
+    ``exact``: nothing is learned, and every message is judged by itself; so it is up to the index ``blind``.
+    """
+
+    def __init__(
+        self,
+        part: P,
+        model: ModelData,
+        judge: Callable[[P, TraceMessage], Iterator[Finding]],
+        *,
+        exact: bool = False,
+        blind: int = -1,
+    ) -> None:
+        self._exact, self._blind, self._judge = exact, blind, judge
+        self._part: P | None = part
+        self._history = part.history
+        self._snapshots = Snapshots(model, part.SHARED)
         self._states: dict[tuple[bytes, tuple[int, ...], int], _State] = {}
         self._size = self._steps = self._numbers = 0
         self._classes: list[dict[bytes, int]] = []
@@ -75,15 +105,21 @@ class LearnedDevice:
         self._marks: list[Any] = []
         self._pending: dict[_Step, int] = {}  # steps whose writing the history does not know yet
         self._seen: set[int] = set()
+        self._missed = self._began_trial = self._rests_until = 0
 
-    def link(self, connection: str, event: str, message: TraceMessage) -> Iterator[Finding]:
-        """A connection opens, closes, is reset, or has a gap."""
-        device = self._awake()
+    def beside(
+        self, act: Callable[[P, TraceMessage], Iterator[Finding]], message: TraceMessage
+    ) -> Iterator[Finding]:
+        """The findings of something else that happens, of which nothing is learned."""
+        part = self._awake()
         self._state = None
-        yield from device.link(connection, event, _marked(message))
+        yield from act(part, _marked(message))
 
-    def listener(self) -> Listener:
-        """Who takes in the messages of one channel, and gives their findings: mostly none."""
+    def listener(self, usual: Mapping[int, bytes], split: Split) -> Listener:
+        """Who takes in the messages of one channel, and gives their findings: mostly none.
+
+        ``split`` takes the invokeID out of a message; ``usual`` as in ``classes``.
+        """
         classes: dict[bytes, int] = {}
         self._classes.append(classes)
         # Nearly all that is done in a long audit is done here: whatever is looked up often is at hand.
@@ -93,8 +129,8 @@ class LearnedDevice:
             if exact or index <= blind:
                 return self._alone(TraceMessage(Index(index), time, channel, data))
             parts: tuple[bytes, int | None] | None
-            # The first way is what `split` does, in short.
-            if len(data) > 4 and data[1] < 0x80 and data[2:4] == USUAL.get(data[0]) and data[4] < 0x80:
+            # The first way is what `split` of MMS does, in short.
+            if len(data) > 4 and data[1] < 0x80 and data[2:4] == usual.get(data[0]) and data[4] < 0x80:
                 parts = data[:4] + data[5:], data[4]
             else:
                 parts = split(data)
@@ -122,7 +158,7 @@ class LearnedDevice:
             if step.wrote:
                 pending[step] = index
             self._state = step.target
-            self._device = None
+            self._part = None
             return ()
 
         return heard
@@ -130,28 +166,28 @@ class LearnedDevice:
     # The exact way.
 
     def _alone(self, message: TraceMessage) -> Iterator[Finding]:
-        device = self._awake()
+        part = self._awake()
         self._state = None
-        yield from device.message(message)
+        yield from self._judge(part, message)
 
     def _learn(self, number: int, invoke: int | None, message: TraceMessage) -> Iterator[Finding]:
         """Ask the device, and remember the step if it told nothing; the first of a class is only noted."""
-        device = self._awake()
-        if number not in self._seen:
+        part = self._awake()
+        if self._rests(message.index) or number not in self._seen:
             self._seen.add(number)
             self._state = None
-            yield from device.message(message)
+            yield from self._judge(part, message)
             return
         if self._state is None:
-            self._intern(device)
+            self._intern(part)
         before, marks = self._state, list(self._marks)
         relation = next((n for n in before.invokes if marks[n] == invoke), _NEW) if before else _NEW
         told = False
-        for finding in device.message(message):
+        for finding in self._judge(part, message):
             told = True
             yield finding
         remembered = self._history.told_at(message.index)
-        self._intern(device)
+        self._intern(part)
         if told or remembered or before is None or self._state is None:
             return
         sources = self._sources(marks, message, invoke)
@@ -162,28 +198,40 @@ class LearnedDevice:
             before.steps[number, relation] = step
             self._steps += 1
 
-    def _awake(self) -> Device:
-        """The device itself, in the state that the tables have led to."""
+    def _rests(self, index: int) -> bool:
+        """Whether nothing is learned for a while: where little comes again, to learn is a waste."""
+        if index < self._rests_until:
+            return True
+        self._missed += 1
+        if self._missed % _TRIAL == 0:
+            of = index - self._began_trial  # so many messages, of this part or of others
+            self._began_trial = index
+            if self._missed > 2 * _TRIAL and of < 2 * _TRIAL:
+                self._rests_until = self._began_trial = index + _REST
+        return False
+
+    def _awake(self) -> P:
+        """The part itself, in the state that the tables have led to."""
         if self._pending:
             self._history.write_down((step.wrote, index) for step, index in self._pending.items())
             self._pending.clear()
-        if self._device is None:
+        if self._part is None:
             assert self._state is not None
             kinds = self._state.kinds
             marks = [_mark(kind, mark) for kind, mark in zip(kinds, self._marks, strict=True)]
             self._marks = list(marks)
-            self._device = self._snapshots.put_back(self._state.octets, marks)
-        return self._device
+            self._part = self._snapshots.put_back(self._state.octets, marks)
+        return self._part
 
-    def _intern(self, device: Device) -> None:
-        """Find out in which state the device is."""
-        device.belief.listen()  # what the last message showed is forgotten when the next one comes
-        taken = self._snapshots.take(device)
+    def _intern(self, part: P) -> None:
+        """Find out in which state the part is."""
+        part.settle()
+        taken = self._snapshots.take(part)
         self._marks = list(taken.marks)
-        self._state = self._known(taken)
+        self._state = self._known(taken, part.version)
 
-    def _known(self, taken: Snapshot) -> _State:
-        key = taken.octets, taken.order, self._world.size
+    def _known(self, taken: Snapshot, version: int) -> _State:
+        key = taken.octets, taken.order, version
         if key not in self._states:
             if self._size + len(taken.octets) > LARGEST:
                 self._forget()

@@ -9,8 +9,9 @@ from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property
 from typing import Any
 
+from mmsverify.audit.classes import USUAL, split, whole
 from mmsverify.audit.device import Device
-from mmsverify.audit.learned import LearnedDevice
+from mmsverify.audit.learned import Learned
 from mmsverify.audit.lookahead import Lookahead, link
 from mmsverify.audit.modbus import Access, Plan, Server
 from mmsverify.audit.telling import Place
@@ -54,8 +55,9 @@ class Replay:
         self._asked, self._variant, self._tables = _known(model), variant, tables
         self.messages = self.events = self.skipped = 0
         self.coverage: list[Coverage] = []
-        self._devices: dict[str, LearnedDevice] = {}
+        self._devices: dict[str, Learned[Device]] = {}
         self._controllers: dict[str, Controller] = {}
+        self._learners: dict[Controller, Learned[Controller]] = {}
         self._servers: dict[str, Server] = {}
         self._ahead = Lookahead(trace)
 
@@ -85,9 +87,9 @@ class Replay:
         """Who judges the messages of a channel."""
         encoding, names = channel.message_encoding, channel.metadata
         if encoding == "mms-ber" and self._asked in (None, ROBOT):
-            return self._device(names.get("vmd", "")).listener()
+            return self._device(names.get("vmd", "")).listener(USUAL, split)
         if channel.schema_name == SAMPLES and self._asked in (None, FRAMEWORK):
-            return _whole(lambda message: self.controller(message).sample(message))
+            return self._learned(channel).listener({}, whole)
         if encoding == "modbus-tcp" and self._asked in (None, SIGNALS):
             return _whole(self._server(names.get("controller", "")).message)
         return _whole(self._beside)
@@ -95,19 +97,28 @@ class Replay:
     def _beside(self, message: TraceMessage) -> Iterator[Finding]:
         """A link event, or what nobody knows."""
         if (happened := link(message)) is not None:
-            yield from self._device(message.metadata.get("name", "")).link(*happened, message)
+            connection, event = happened
+            device = self._device(message.metadata.get("name", ""))
+            yield from device.beside(lambda part, marked: part.link(connection, event, marked), message)
         elif (happened := link(message, "modbus")) is not None:
             self._server(message.metadata.get("name", "")).link(*happened, message)
         else:
             self.skipped += 1
 
-    def controller(self, message: TraceMessage) -> Controller:
-        """The controller whose sample a message is."""
-        name = message.metadata.get("controller", "")
+    def controller(self, channel: Channel) -> Controller:
+        """The controller whose samples stand on a channel."""
+        name = channel.metadata.get("controller", "")
         if name not in self._controllers:
             scans, numbering = self._framework
             self._controllers[name] = Controller(Place(self.trace.path, name), scans, numbering)
         return self._controllers[name]
+
+    def _learned(self, channel: Channel) -> Learned[Controller]:
+        controller = self.controller(channel)
+        if controller not in self._learners:
+            model = self._framework[0].automaton.machine.model
+            self._learners[controller] = Learned(controller, model, Controller.sample, exact=self._exact)
+        return self._learners[controller]
 
     def _server(self, name: str) -> Server:
         if name not in self._servers:
@@ -142,7 +153,7 @@ class Replay:
             raise ProfileError(cause, place=f"{FRAMEWORK}.commands", cure=cure) from None
         return Scans(automaton), numbering
 
-    def _device(self, vmd: str) -> LearnedDevice:
+    def _device(self, vmd: str) -> Learned[Device]:
         if vmd not in self._devices:
             scenario = self.model.options["scenario"]
             predefined = self.profile.get("predefined", ())
@@ -165,7 +176,8 @@ class Replay:
             self.coverage.append(belief.coverage)
             place = Place(self.trace.path, vmd)
             device = Device(place, belief, self._arms(), base, self._ahead.blind(vmd))
-            self._devices[vmd] = LearnedDevice(device, exact=self._exact)
+            until = max((last for _, last in device.blind), default=-1)
+            self._devices[vmd] = Learned(device, self.model, Device.message, exact=self._exact, blind=until)
         return self._devices[vmd]
 
     def _proved(self) -> tuple[Claim, ...]:

@@ -16,19 +16,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from mmsverify.audit.marks import Index, InvokeId
-from mmsverify.audit.telling import History, Place
-from mmsverify.concrete.belief.constraints import Constraints
-from mmsverify.concrete.belief.coverage import Coverage
-from mmsverify.concrete.belief.ground import Ground
-from mmsverify.concrete.belief.internal import Unseen
-from mmsverify.concrete.belief.partial import World
-from mmsverify.concrete.belief.ready import Rows
 from mmsverify.formats.trace import TraceMessage
 from mmsverify.model import ModelData, Row
 from mmsverify.model.sorts import EnumSort
 
 Mark = TraceMessage | Index | InvokeId
-_SHARED = (ModelData, Row, World, Ground, Rows, Constraints, Unseen, Coverage, History, Place)
 
 
 @dataclass(frozen=True, slots=True)
@@ -45,20 +37,21 @@ class Snapshot:
 
 
 class Snapshots:
-    """Takes and puts back the states of one device."""
+    """Takes and puts back the states of one device. ``shared``: the types of what all its states share."""
 
-    def __init__(self, model: ModelData) -> None:
+    def __init__(self, model: ModelData, shared: Iterable[type]) -> None:
         self._shared: dict[int, Any] = {}
         # Members of enumerations come from model files, which no unpickler could import.
         sorts = (sort for row in model.rows for sort in (p.of for p in row.on.parameters))
         signatures = (sort for each in model.signatures.values() for sort in (each.of, *each.sorts))
         found = (sort.members for sort in (*sorts, *signatures) if isinstance(sort, EnumSort))
-        self._others: set[type] = {enum.EnumMeta, *(type(member) for members in found for member in members)}
+        members = {type(member) for members in found for member in members}
+        self._types: set[type] = {enum.EnumMeta, ModelData, Row, *shared, *members}
 
     def take(self, state: object) -> Snapshot:
         """What a state is, as octets and marks."""
         file = io.BytesIO()
-        pickler = _Pickler(file, self._shared, self._others)
+        pickler = _Pickler(file, self._shared, self._types)
         pickler.dump(state)
         marks = tuple(pickler.marks.values())
         return Snapshot(file.getvalue(), marks, _order(marks))
@@ -90,13 +83,13 @@ def _same(number: int) -> Any:
 class _Pickler(pickle.Pickler):
     """Leaves out marks and what is shared, by a table of types: to ask for each object would take long."""
 
-    def __init__(self, file: io.BytesIO, shared: dict[int, Any], others: Iterable[type]) -> None:
+    def __init__(self, file: io.BytesIO, shared: dict[int, Any], types: Iterable[type]) -> None:
         super().__init__(file, protocol=pickle.HIGHEST_PROTOCOL)
         self.marks: dict[tuple[type, int], Mark] = {}
         self._numbers: dict[tuple[type, int], int] = {}
         self._shared = shared
         self.dispatch_table = {
-            **dict.fromkeys((*_SHARED, *others), self._common),
+            **dict.fromkeys(types, self._common),
             **dict.fromkeys((Index, InvokeId, TraceMessage), self._marked),
         }
 

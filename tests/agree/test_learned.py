@@ -52,8 +52,11 @@ def repeated(messages: list[TraceMessage], chance: random.Random, count: int) ->
 
 
 def muddle(seed: int, path: Path, count: int) -> None:
-    conversation(seed, 60).write(path)
-    trace = read_trace(path)
+    muddled(conversation(seed, 60).write(path), path, seed, count)
+
+
+def muddled(source: Path, path: Path, seed: int, count: int) -> None:
+    trace = read_trace(source)
     messages, profile = list(trace), trace.profile
     with TraceWriter(path) as writer:
         writer.add_profile(profile)
@@ -61,10 +64,30 @@ def muddle(seed: int, path: Path, count: int) -> None:
             writer.add(number * 1_000_000, message.channel, message.data)
 
 
-@pytest.mark.parametrize("seed", range(6))
+@pytest.mark.parametrize("seed", range(3))
 def test_muddled_conversations_are_told_alike(seed: int, tmp_path: Path) -> None:
     path = tmp_path / "made.mcap"
     muddle(seed, path, 12)
+    assert told(path, exact=False) == told(path, exact=True)
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("name", ["press-day", "faulty-press"])
+def test_muddled_samples_of_a_controller_are_told_alike(name: str, seed: int, tmp_path: Path) -> None:
+    path = tmp_path / "made.mcap"
+    muddled(traces_dir() / f"{name}.mcap", path, seed, 300)
+    found = told(path, exact=True)
+    assert len(found) > 10
+    assert told(path, exact=False) == found
+
+
+def test_where_nothing_comes_again_nothing_is_learned_for_a_while(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(learned, "_TRIAL", 4)
+    monkeypatch.setattr(learned, "_REST", 20)
+    path = tmp_path / "made.mcap"
+    muddle(5, path, 12)
     assert told(path, exact=False) == told(path, exact=True)
 
 

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from typing import Any
+from typing import Any, ClassVar
 
 from mmsverify.audit.rule import Breach
-from mmsverify.audit.telling import Place, of_rule
+from mmsverify.audit.telling import History, Place, of_rule
 from mmsverify.audit.vr.blame import Blaming, Given
 from mmsverify.audit.vr.rules import VR_RULES
 from mmsverify.audit.vr.scans import NOTHING, PRE, RESET, RUN_ACTION, TO_ORIGIN, Scans
@@ -55,10 +55,15 @@ class Numbering:
 class Controller:
     """The replay of one controller's samples."""
 
+    SHARED: ClassVar[tuple[type, ...]] = (Scans, Numbering, Blaming, Place, History)
+    """The types of what all its states share."""
+    version: int = 0
+
     def __init__(self, place: Place, scans: Scans, numbering: Numbering) -> None:
         self._place = place
         self._scans, self._numbering, self._blaming = scans, numbering, Blaming(scans)
         self._sub_modes = SubModes(scans, numbering.sub_modes)
+        self.history = History()
         self._states: States = scans.automaton.all
         self._cells: dict[str, float] = {}
         self._told: dict[str, float] = {}
@@ -97,6 +102,9 @@ class Controller:
         else:
             self._lawless = None
         yield from self._follow(message, shown, said.cells)
+
+    def settle(self) -> None:
+        """Nothing waits for the next sample to be forgotten."""
 
     def way(self) -> tuple[Stage, ...] | None:
         """The shortest legal way to the last sample from the one before; ``None`` where there is none.
