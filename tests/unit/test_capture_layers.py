@@ -262,3 +262,37 @@ def test_half_an_adu_at_the_end_is_told() -> None:
     fault = connection.end("server")
     assert fault is not None
     assert "8 octets" in fault.reason
+
+
+SAID = [CR, CC, dt(connect()), dt(accept()), dt(mms(STATUS)), dt(mms(STATUS_ANSWER)), dt(mms(CONCLUDE))]
+SAID += [dt(mms(STATUS, 1)), dt(mms(STATUS, 7)), dt(STATUS), dt(mms(STATUS), 11), dt(FINISH), dt(ABORT)]
+changes = st.lists(st.tuples(st.integers(0, 80), st.integers(0, 255)), max_size=2)
+turns = st.tuples(st.sampled_from(["client", "server"]), st.sampled_from(SAID), changes, st.integers(0, 3))
+
+
+@settings(max_examples=400, deadline=None)
+@given(st.lists(turns, max_size=8), st.booleans(), st.booleans())
+def test_the_short_way_through_the_layers_gives_what_the_long_one_gives(
+    said: list[tuple[Sender, bytes, list[tuple[int, int]], int]], associated: bool, aligned: bool
+) -> None:
+    begin: list[tuple[Sender, bytes]] = [("client", dt(connect())), ("server", dt(accept()))]
+    spoken = begin if associated and aligned else []
+    for sender, octets, changed, cut in said:
+        made = bytearray(octets)
+        for at, octet in changed:
+            made[at % len(made)] = octet
+        spoken.append((sender, bytes(made[: len(made) - cut])))
+    short, long = Association(aligned=aligned), Association(aligned=aligned)
+    for sender, octets in spoken:
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(Association, "_plain", lambda *_: None)
+            expected = list(long.feed(sender, octets))
+        assert list(short.feed(sender, octets)) == expected
+
+
+def test_the_short_way_through_the_layers_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    association = Association(aligned=True)
+    assert list(association.feed("client", dt(connect()))) == [INITIATE]
+    assert list(association.feed("server", dt(accept()))) == [INITIATED]
+    monkeypatch.setattr("mmsverify.formats.capture.session.read", lambda _: pytest.fail("the long way"))
+    assert list(association.feed("client", dt(mms(STATUS)))) == [STATUS]

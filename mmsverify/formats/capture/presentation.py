@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from mmsverify.formats import ber
 from mmsverify.formats.capture.faults import UnreadableError
 from mmsverify.formats.capture.tlv import Element, elements, first, only
 
@@ -46,6 +47,24 @@ def values(user: bytes) -> list[Value]:
     if element.tag != _USER_DATA:
         raise UnreadableError(_LAYER, f"{element.tag:02X} where fully encoded data (61) belongs")
     return list(_listed(element.contents))
+
+
+def plain(octets: bytes, at: int) -> Value | None:
+    """The value that is all of the octets from ``at`` on, one of fully encoded data in the form of most.
+
+    ``None`` where anything is otherwise, right or wrong.
+    """
+    size = len(octets)
+    try:
+        data, begin, end = ber.header(octets, at, size)
+        item, begin, last = ber.header(octets, begin, size)
+        value, inside, until = ber.header(octets, begin + 3, size)
+    except (ber.Fault, IndexError):
+        return None
+    usual = (data, item, value) == (_USER_DATA, _SEQUENCE, _SINGLE) and end == last == until == size
+    if not usual or octets[begin : begin + 2] != b"\x02\x01" or octets[begin + 2] > 0x7F:
+        return None
+    return Value(octets[begin + 2], octets[inside:])
 
 
 def abort(user: bytes) -> list[Value]:

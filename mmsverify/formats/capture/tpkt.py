@@ -58,6 +58,11 @@ class Framer:
             del self._held[:length]
             yield tpdu
 
+    @property
+    def idle(self) -> bool:
+        """Whether the next octet is known to begin a TPKT."""
+        return self._aligned and not self._held
+
     def lose(self) -> None:
         """Octets are missing: forget the TPKT in hand, look for the next one."""
         self._held.clear()
