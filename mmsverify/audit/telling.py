@@ -48,21 +48,32 @@ class History:
     def __init__(self) -> None:
         self.writers: dict[Key, tuple[int, tuple[str, ...]]] = {}
         self.recent: dict[Any, int] = {}
+        self._own: dict[Key, tuple[str, ...]] = {}
+
+    def write(self, key: Key, index: int, own: tuple[str, ...]) -> None:
+        """The message at ``index`` wrote a cell, by these clauses; by none: those of before still hold."""
+        at, made = self.writers.get(key, (-1, ()))
+        self._own[key] = own or (self._own[key] if at == index else ())
+        self.writers[key] = index, own or made
 
     def written_at(self, index: int) -> dict[Key, tuple[str, ...]]:
-        """The cells that the message at ``index`` wrote, with the clauses that made them so."""
-        return {key: made for key, (at, made) in self.writers.items() if at == index}
+        """The cells that the message at ``index`` wrote, each with the clauses of its own."""
+        return {key: self._own[key] for key, (at, _) in self.writers.items() if at == index}
 
     def told_at(self, index: int) -> bool:
         """Whether something was told of the message at ``index``, or would have been if it were not known."""
         return any(at == index for at in self.recent.values())
 
     def write_down(self, steps: Iterable[tuple[Mapping[Key, tuple[str, ...]], int]]) -> None:
-        """What earlier messages wrote: the cells, and the index of each message."""
-        for wrote, index in steps:
-            for key, made in wrote.items():
+        """What earlier messages wrote: the cells, and the index of each message.
+
+        Of messages that did the same the last one is enough: where clauses of before still hold, they are
+        those of the last one that had any.
+        """
+        for wrote, index in sorted(steps, key=lambda step: step[1]):
+            for key, own in wrote.items():
                 if self.writers.get(key, (-1, ()))[0] < index:
-                    self.writers[key] = index, made
+                    self.write(key, index, own)
 
 
 class Telling:
@@ -88,8 +99,7 @@ class Telling:
         ):
             yield self._finding(message, service, answer, blame, related)
         for key in outcome.written:
-            made = outcome.clauses.get(key[0]) or self.history.writers.get(key, (0, ()))[1]
-            self.history.writers[key] = (message.index, made)
+            self.history.write(key, message.index, outcome.clauses.get(key[0], ()))
 
     def _repeated(self, message: TraceMessage, key: Any, *, told_again: bool) -> bool:
         """Whether it was told shortly before: a contradiction that every poll repeats is one finding."""

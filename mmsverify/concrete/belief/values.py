@@ -21,7 +21,10 @@ Known = int | Interval
 
 
 class Absent:
-    """The value of an optional parameter that is not given."""
+    """The value of an optional parameter that is not given: there is one, also where a state is put back."""
+
+    def __reduce__(self) -> str:
+        return "ABSENT"
 
 
 ABSENT = Absent()
