@@ -20,10 +20,12 @@ from mmsverify.formats.trace import Channel, TraceMessage
 from mmsverify.model import ModelData
 from mmsverify.results import Finding
 
-LARGEST = 64 << 20
-"""Octets of states that are kept of one device."""
-_MOST_STEPS = 1 << 19
-MOST_CLASSES = 1 << 16
+LARGEST = 32 << 20
+"""Octets of states that are kept of one part."""
+MOST_CLASSES = 1 << 14
+LONGEST = 2048
+"""Octets of a message that may have a class: of longer ones few are said twice, and all would be kept."""
+_MOST_STEPS = 1 << 17
 _TRIAL = 256  # so many messages are not known, and then it is seen how many were
 _REST = 8192  # messages
 _PRESENT = -1  # a mark that comes from the message itself
@@ -126,7 +128,7 @@ class Learned(Generic[P]):
         exact, blind, pending = self._exact, self._blind, self._pending
 
         def heard(index: int, time: int, channel: Channel, data: bytes) -> Iterator[Finding] | tuple[()]:
-            if exact or index <= blind:
+            if exact or index <= blind or len(data) > LONGEST:
                 return self._alone(TraceMessage(Index(index), time, channel, data))
             parts: tuple[bytes, int | None] | None
             # The first way is what `split` of MMS does, in short.

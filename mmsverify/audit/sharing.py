@@ -6,13 +6,16 @@ and a recording that kills its process alone as well is told as one that cannot 
 
 from __future__ import annotations
 
+import os
+import threading
 from collections import deque
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
-from multiprocessing import get_context
+from multiprocessing import connection, get_context, parent_process
 from pathlib import Path
 
+from mmsverify.errors import UsageError
 from mmsverify.results import AuditedInput, Finding
 
 Done = tuple[AuditedInput | None, list[Finding]]
@@ -43,25 +46,62 @@ def _round(
     task: Task, paths: Sequence[Path], numbers: Sequence[int], jobs: int, finish: Callable[[int, Done], None]
 ) -> list[int]:
     """Do these until a process dies; gives those that were under way then."""
+    pool = ProcessPoolExecutor(
+        min(jobs, len(numbers)), mp_context=get_context("spawn"), initializer=_end_with_parent
+    )
+    try:
+        _require_start(pool)
+        return _until_broken(lambda number: pool.submit(task, paths[number]), numbers, 2 * jobs, finish)
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+def _until_broken(
+    submit: Callable[[int], Future[Done]],
+    numbers: Sequence[int],
+    most: int,
+    finish: Callable[[int, Done], None],
+) -> list[int]:
+    """The same with a pool; ``most`` are under way at any moment."""
     waiting = deque(numbers)
     running: dict[Future[Done], int] = {}
     broken: list[int] = []
-    with ProcessPoolExecutor(min(jobs, len(numbers)), mp_context=get_context("spawn")) as pool:
-        while running or (waiting and not broken):
-            while waiting and not broken and len(running) < 2 * jobs:
-                number = waiting.popleft()
-                try:
-                    running[pool.submit(task, paths[number])] = number
-                except BrokenProcessPool:
-                    broken.append(number)
-            finished, _ = wait(running, return_when=FIRST_COMPLETED) if running else ((), ())
-            for future in finished:
-                number = running.pop(future)
-                if isinstance(future.exception(), BrokenProcessPool):
-                    broken.append(number)
-                else:
-                    finish(number, future.result())
+    while running or (waiting and not broken):
+        while waiting and not broken and len(running) < most:
+            number = waiting.popleft()
+            try:
+                running[submit(number)] = number
+            except BrokenProcessPool:
+                broken.append(number)
+        finished, _ = wait(running, return_when=FIRST_COMPLETED) if running else ((), ())
+        for future in finished:
+            number = running.pop(future)
+            if isinstance(future.exception(), BrokenProcessPool):
+                broken.append(number)
+            else:
+                finish(number, future.result())
     return broken
+
+
+def _end_with_parent() -> None:
+    """Let a process end when the one that started it is gone, however that went."""
+    parent = parent_process()
+    assert parent is not None
+
+    def watch() -> None:
+        connection.wait([parent.sentinel])
+        os._exit(1)
+
+    threading.Thread(target=watch, daemon=True).start()
+
+
+def _require_start(pool: ProcessPoolExecutor) -> None:
+    """Tell processes that cannot even start from those that a recording kills."""
+    try:
+        pool.submit(int).result()
+    except BrokenProcessPool:
+        cure = "in a script, call it under if __name__ == '__main__'; or use one process"
+        raise UsageError("other processes cannot be started", place="jobs", cure=cure) from None
 
 
 def _killed(path: Path) -> Finding:
