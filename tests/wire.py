@@ -96,3 +96,15 @@ async def corrupting(server: int, change: Change) -> AsyncIterator[int]:
 
     async with serving(joined) as port:
         yield port
+
+
+def nth(number: int, change: Change) -> Change:
+    """Change only one of the octet strings that pass, by its place from 1."""
+    count = 0
+
+    def changed(octets: bytes) -> bytes:
+        nonlocal count
+        count += 1
+        return change(octets) if count == number else octets
+
+    return changed

@@ -32,8 +32,6 @@ _PRESENT = -1  # a mark that comes from the message itself
 _NEW = -1  # an invokeID that is none of the state's
 
 Listener = Callable[[int, int, Channel, bytes], Iterator[Finding] | tuple[()]]
-Data = tuple[int, int, Channel, bytes]
-"""A message: its index, its time, its channel, its octets."""
 
 
 @dataclass(slots=True, eq=False)
@@ -182,15 +180,16 @@ class Learned(Generic[P]):
             return
         if self._state is None:
             self._intern(part)
-        before, marks = self._state, list(self._marks)
-        relation = next((n for n in before.invokes if marks[n] == invoke), _NEW) if before else _NEW
+        before, marks = self._state, self._marks
+        assert before is not None
+        relation = next((n for n in before.invokes if marks[n] == invoke), _NEW)
         told = False
         for finding in self._judge(part, message):
             told = True
             yield finding
-        remembered = self._history.told_at(message.index)
+        told = told or self._history.told_at(message.index)
         self._intern(part)
-        if told or remembered or before is None or self._state is None:
+        if told or self._state is None:
             return
         sources = self._sources(marks, message, invoke)
         if sources is not None and self._steps < _MOST_STEPS:
@@ -221,7 +220,7 @@ class Learned(Generic[P]):
             assert self._state is not None
             kinds = self._state.kinds
             marks = [_mark(kind, mark) for kind, mark in zip(kinds, self._marks, strict=True)]
-            self._marks = list(marks)
+            self._marks = marks
             self._part = self._snapshots.put_back(self._state.octets, marks)
         return self._part
 

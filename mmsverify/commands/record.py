@@ -13,10 +13,10 @@ import typer
 from mmsverify.commands.options import Quiet
 from mmsverify.commands.output import emit, remark, require_writable
 from mmsverify.errors import InputError, UsageError
+from mmsverify.formats.trace import USUAL_PORTS
 from mmsverify.report import RECORD_FORMATS, render_recording, require_format
 
 if TYPE_CHECKING:
-    from mmsverify.formats.trace import Role
     from mmsverify.recording import Address, Log
     from mmsverify.recording.running import Source
 
@@ -28,7 +28,6 @@ Seconds = Annotated[
 ]
 Name = Annotated[str, typer.Option("--name", metavar="NAME", help="Call the controller so in the trace.")]
 Format = Annotated[str, typer.Option("--format", metavar="|".join(RECORD_FORMATS))]
-_PORTS = {"mms": 102, "modbus": 502}
 
 
 @record.command("proxy")
@@ -50,16 +49,16 @@ def proxy(
 
     Exit status: 0; 2 if it could not begin, or the trace could not be written to its end.
     """
-    if protocol not in _PORTS:
+    role = next((known for known in USUAL_PORTS if known == protocol), None)
+    if role is None:
         raise UsageError(f"no protocol {protocol!r} here", place="--protocol", cure="mms or modbus")
     from mmsverify.recording import Relay, address
 
-    here, there = address(listen, "--listen"), address(to, "--to", _PORTS[protocol])
+    here, there = address(listen, "--listen"), address(to, "--to", USUAL_PORTS[role])
     if here == there:
         raise UsageError("is the controller itself", place="--listen", cure="name another port")
-    host = _host(there, name, _PORTS[protocol])
+    host = _host(there, name, USUAL_PORTS[role])
     there = there.resolved()
-    role: Role = "mms" if protocol == "mms" else "modbus"
     tell = partial(remark, quiet=quiet)
 
     def relay(log: Log) -> Source:
@@ -87,8 +86,8 @@ def modbus(
     """
     from mmsverify.recording import Poller, address, read_map
 
-    there, points = address(server, "HOST:PORT", _PORTS["modbus"]), read_map(map)
-    host = _host(there, name or points.controller, _PORTS["modbus"])
+    there, points = address(server, "HOST:PORT", USUAL_PORTS["modbus"]), read_map(map)
+    host = _host(there, name or points.controller, USUAL_PORTS["modbus"])
     there = there.resolved()
     tell = partial(remark, quiet=quiet)
 

@@ -16,6 +16,10 @@ Sender = Literal["client", "server"]
 Role = Literal["mms", "modbus"]
 LinkEvent = Literal["open", "close", "reset", "gap"]
 
+USUAL_PORTS: Mapping[Role, int] = {"mms": 102, "modbus": 502}
+LETTERS: Mapping[Role, str] = {"mms": "a", "modbus": "c"}
+"""With which the names of connections begin: a1 is an association, c1 a Modbus connection."""
+
 PROFILE_RECORD = "mmsverify.profile"
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import re
 import tomllib
+from collections.abc import Callable
 from typing import Any
 
 LONGEST = 1 << 18
@@ -22,12 +23,7 @@ _INTEGERS = range(-(1 << 63), 1 << 63)
 
 def toml(text: str) -> dict[str, Any]:
     """The tables of a TOML text. Raises ``ValueError`` where it is none, or is no profile by its size."""
-    _require_short(text)
-    try:
-        tables = tomllib.loads(text)
-    except RecursionError:
-        raise ValueError("it is nested too deeply") from None
-    _require_plain(tables)
+    tables: dict[str, Any] = _parsed(tomllib.loads, text)
     return tables
 
 
@@ -37,19 +33,23 @@ def toml_or_json(text: str) -> Any:
     try:
         return toml(f"value = {text}")["value"]
     except tomllib.TOMLDecodeError:
-        pass
-    try:
-        value = json.loads(text)
-    except RecursionError:
-        raise ValueError("it is nested too deeply") from None
-    _require_plain(value)
-    return value
+        return _parsed(json.loads, text)
 
 
 def shown(value: Any) -> str:
     """A value for a message, not at any length."""
     text = repr(value)
     return text if len(text) <= 200 else f"{text[:200]}..."
+
+
+def _parsed(parse: Callable[[str], Any], text: str) -> Any:
+    _require_short(text)
+    try:
+        value = parse(text)
+    except RecursionError:
+        raise ValueError("it is nested too deeply") from None
+    _require_plain(value)
+    return value
 
 
 def _require_short(text: str) -> None:

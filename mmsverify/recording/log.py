@@ -18,12 +18,11 @@ from mmsverify.formats.capture.faults import Fault
 from mmsverify.formats.capture.link import Endpoint
 from mmsverify.formats.capture.tcp import Happening
 from mmsverify.formats.mcap_write import TraceWriter
-from mmsverify.formats.trace import Channel, Role, Sender
+from mmsverify.formats.trace import LETTERS, Channel, Role, Sender
 from mmsverify.formats.vr import Number, encode
 
 _MOST_REASONS = 1000  # different things that could not be read, told one by one; the rest is a number
 _OTHERS = ("", "recording", "further reasons")
-_LETTER: Mapping[Role, str] = {"mms": "a", "modbus": "c"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -113,7 +112,7 @@ class Log:
 
         A recorder may run for years, and a trace has room for some ten thousand names.
         """
-        numbered = (f"{_LETTER[role]}{number}" for number in count(1))
+        numbered = (f"{LETTERS[role]}{number}" for number in count(1))
         name = next(name for name in numbered if name not in self._live)
         talk = Conversation(
             role=role,

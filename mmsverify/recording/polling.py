@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import asyncio
 import struct
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
+from itertools import chain, repeat
 
 from mmsverify.errors import DecodeError, UsageError
 from mmsverify.formats import modbus
@@ -66,7 +67,7 @@ class Poller:
             line = await self._again()
 
     async def _again(self) -> _Line:
-        for pause in _endless(_PAUSES):
+        for pause in chain(_PAUSES, repeat(_PAUSES[-1])):
             await asyncio.sleep(pause)
             with suppress(OSError):
                 return await self._opened()
@@ -201,12 +202,6 @@ def _words(read: Read, data: bytes) -> list[int]:
     if read.function in modbus.BITS:
         return [data[at // 8] >> at % 8 & 1 for at in range(read.count)]
     return list(struct.unpack(f">{read.count}H", data))
-
-
-def _endless(pauses: tuple[float, ...]) -> Iterator[float]:
-    yield from pauses
-    while True:
-        yield pauses[-1]
 
 
 def _reason(error: Exception) -> str:

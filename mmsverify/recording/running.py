@@ -75,7 +75,7 @@ def run(source: Source, log: Log, seconds: float | None = None) -> Recorded:
 
 
 async def _until_stopped(source: Source, log: Log, seconds: float | None) -> None:
-    # A system that is out of sockets is told by the source, where it can be told: not by asyncio, at length.
+    # Where the system is out of sockets, asyncio would tell each client that it cannot accept by a traceback.
     asyncio.get_running_loop().set_exception_handler(lambda *_: None)
     stop = asyncio.Event()
     work = asyncio.create_task(source.work())

@@ -6,19 +6,16 @@ The devices are no robots (IEC 61850), so that the base standard's rules are wha
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 import iec61850
 import pytest
-from wire import HOST, corrupting, relaying, rows
+from wire import HOST, Change, corrupting, nth, relaying, rows
 
 from mmsverify.auditing import audit_traces
 from mmsverify.results import Finding
-
-Change = Callable[[bytes], bytes]
 
 
 def point(name: str, constraint: str, kind: Any, value: dict[str, Any]) -> dict[str, Any]:
@@ -85,18 +82,6 @@ def test_a_conforming_session_is_audited_without_findings(tmp_path: Path) -> Non
     assert "a1 gap" not in said
 
 
-def response(number: int, change: Change) -> Change:
-    """Change only one of the PDUs, by its place among the server's messages (the Initiate's is 2)."""
-    count = 0
-
-    def changed(octets: bytes) -> bytes:
-        nonlocal count
-        count += 1
-        return change(octets) if count == number else octets
-
-    return changed
-
-
 def pdu(change: Change) -> Change:
     """Change the confirmed response (A1) in a message; its length stays."""
 
@@ -119,5 +104,5 @@ def pdu(change: Change) -> Change:
 def test_a_session_that_the_wire_corrupts_is_flagged(
     number: int, change: Change, rule: str, tmp_path: Path
 ) -> None:
-    found = recorded(tmp_path / "t.mcap", response(number, change))
+    found = recorded(tmp_path / "t.mcap", nth(number, change))
     assert rule in {finding.rule for finding in found if finding.severity == "error"}

@@ -13,7 +13,7 @@ from pymodbus.client import AsyncModbusTcpClient
 from pymodbus.exceptions import ModbusException
 from pymodbus.server import ModbusTcpServer
 from pymodbus.simulator import DataType, SimData, SimDevice
-from wire import HOST, corrupting, relaying
+from wire import HOST, corrupting, nth, relaying
 
 from mmsverify.auditing import audit_traces
 from mmsverify.formats.mcap import TraceWriter
@@ -82,18 +82,6 @@ def recorded(tmp_path: Path, change: Callable[[bytes], bytes] | None = None) -> 
 
 def test_a_conforming_session_is_audited_without_findings(tmp_path: Path) -> None:
     assert recorded(tmp_path) == []
-
-
-def nth(number: int, change: Callable[[bytes], bytes]) -> Callable[[bytes], bytes]:
-    """Change only one answer."""
-    count = 0
-
-    def changed(octets: bytes) -> bytes:
-        nonlocal count
-        count += 1
-        return change(octets) if count == number else octets
-
-    return changed
 
 
 @pytest.mark.parametrize(

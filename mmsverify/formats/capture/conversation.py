@@ -13,9 +13,8 @@ from mmsverify.formats.capture.faults import Fault
 from mmsverify.formats.capture.link import Endpoint
 from mmsverify.formats.capture.modbus import ModbusConnection, asks
 from mmsverify.formats.capture.tcp import Connection, Happening
-from mmsverify.formats.trace import Channel, LinkEvent, Role, Sender
+from mmsverify.formats.trace import LETTERS, USUAL_PORTS, Channel, LinkEvent, Role, Sender
 
-_USUAL = {"mms": 102, "modbus": 502}
 _SESSION_STARTS = (0x01, 0x0D, 0x0E)
 
 
@@ -39,8 +38,8 @@ class Reader(Protocol):
 class Ports:
     """On which TCP ports which protocol is expected; elsewhere both are found by their first octets."""
 
-    mms: frozenset[int] = frozenset({102})
-    modbus: frozenset[int] = frozenset({502})
+    mms: frozenset[int] = frozenset({USUAL_PORTS["mms"]})
+    modbus: frozenset[int] = frozenset({USUAL_PORTS["modbus"]})
 
     def role(self, ends: tuple[Endpoint, Endpoint]) -> Role | None:
         """What to expect between two endpoints."""
@@ -67,13 +66,13 @@ class Names:
     def connection(self, role: Role) -> str:
         """The next free name."""
         self._counts[role] += 1
-        return f"{'a' if role == 'mms' else 'c'}{self._counts[role]}"
+        return f"{LETTERS[role]}{self._counts[role]}"
 
     def host(self, server: Endpoint, role: Role) -> str:
         """The name of the VMD or controller at an endpoint."""
         text = f"{server.address}:{server.port}"
         name = self.hosts.get(text) or self.hosts.get(server.address) or server.address
-        return name if server.port == _USUAL[role] or text in self.hosts else f"{name}:{server.port}"
+        return name if server.port == USUAL_PORTS[role] or text in self.hosts else f"{name}:{server.port}"
 
 
 @dataclass(slots=True)

@@ -208,11 +208,8 @@ class _Sections:
             return self._packet(number, high, low, _captured(body, 20, count))
         elif kind == _SIMPLE:
             count = self._unpack("I", body)[0]
-            return (
-                self._time,
-                self._of(0).link,
-                _captured(body, 4, count),
-            )  # has no time: that of the packet before
+            # It has no time: that of the packet before.
+            return self._time, self._of(0).link, _captured(body, 4, count)
         return None
 
     def _packet(self, number: int, high: int, low: int, data: bytes) -> tuple[int, int, bytes]:
