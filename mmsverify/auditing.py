@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from mmsverify.audit.annotate import annotate
+from mmsverify.audit.kept import PROCESS
 from mmsverify.audit.replay import Replay
 from mmsverify.audit.spoken import Listener
 from mmsverify.errors import InputError, MmsverifyError, ProfileError
@@ -100,7 +101,14 @@ def _audit(
     trace: McapTrace, tables: Mapping[str, Mapping[str, Any]], manner: Manner
 ) -> tuple[AuditedInput, list[Finding]]:
     begin = time.perf_counter()
-    replay = Replay(trace, within_framework(tables), manner.model, manner.variant, exact=manner.exact)
+    replay = Replay(
+        trace,
+        within_framework(tables),
+        manner.model,
+        manner.variant,
+        exact=manner.exact,
+        kept=None if manner.exact else PROCESS,
+    )
     findings = list(_findings(replay, Path(trace.path)))
     if trace.truncated and not replay.messages and not findings:
         raise InputError(

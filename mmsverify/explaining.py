@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from pathlib import Path
 
-from mmsverify.audit.replay import FRAMEWORK, SAMPLES, Replay
+from mmsverify.audit.parts import FRAMEWORK
+from mmsverify.audit.replay import SAMPLES, Replay
 from mmsverify.audit.vr import SCAN, Controller, Stage
 from mmsverify.errors import InputError, MmsverifyError, UsageError
 from mmsverify.formats.mcap import read_trace

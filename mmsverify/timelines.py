@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mmsverify.audit.replay import FRAMEWORK, SAMPLES
+from mmsverify.audit.parts import FRAMEWORK
+from mmsverify.audit.replay import SAMPLES
 from mmsverify.auditing import audit_traces
 from mmsverify.errors import DecodeError, InputError, UsageError
 from mmsverify.formats import vr

@@ -7,14 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-_REQUEST, _RESPONSE, _ERROR, _UNCONFIRMED = 0xA0, 0xA1, 0xA2, 0xA3
+_REQUEST, _RESPONSE, ERROR = 0xA0, 0xA1, 0xA2
+_WHOLE = frozenset({0xA3, *range(0xA8, 0xAE)})
+"""The first octets of unconfirmed, Initiate and Conclude PDUs, in which no invokeID is."""
 _INTEGER, _IMPLICIT = 0x02, 0x80
-_INVOKE = {_REQUEST: _INTEGER, _RESPONSE: _INTEGER, _ERROR: _IMPLICIT}
+_INVOKE = {_REQUEST: _INTEGER, _RESPONSE: _INTEGER, ERROR: _IMPLICIT}
 """By the PDU's first octet: the first octet of its invokeID, which stands first in it."""
-
-USUAL = {kind: bytes([tag, 1]) for kind, tag in _INVOKE.items()}
-"""The third and the fourth octet of a short PDU with an invokeID of one octet, by the first."""
-
 
 Split = Callable[[bytes], tuple[bytes, int | None] | None]
 
@@ -30,7 +28,7 @@ def split(octets: bytes) -> tuple[bytes, int | None] | None:
     Two PDUs of which the rest is the same, and the invokeIDs are as long, differ in nothing else.
     """
     kind = octets[0] if octets else 0
-    if kind == _UNCONFIRMED:
+    if kind in _WHOLE:
         return octets, None
     tag = _INVOKE.get(kind)
     if tag is None or len(octets) < 5:

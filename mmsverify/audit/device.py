@@ -6,7 +6,7 @@ it announces in ``notifications``; how a finding is made in ``telling``.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import ClassVar
 
 from mmsverify.audit import contents
@@ -27,7 +27,7 @@ from mmsverify.concrete.belief.constraints import Constraints
 from mmsverify.concrete.belief.coverage import Coverage
 from mmsverify.concrete.belief.ground import Ground
 from mmsverify.concrete.belief.internal import Unseen
-from mmsverify.concrete.belief.partial import World
+from mmsverify.concrete.belief.partial import Growth, World
 from mmsverify.concrete.belief.ready import Rows
 from mmsverify.errors import DecodeError
 from mmsverify.formats import mms
@@ -76,9 +76,17 @@ class Device:
         return self._telling.history
 
     @property
-    def version(self) -> int:
-        """States are comparable only as long as it is the same: it tells new names."""
-        return self.belief.world.size
+    def grown(self) -> Sequence[Growth]:
+        """The names and facts that were met so far: what its states mean rests on them, in this order."""
+        return self.belief.world.grown
+
+    def grow(self, grown: Iterable[Growth]) -> None:
+        """Take in what another robot's device has met, before one of its states is put in place of this."""
+        for each in grown:
+            if len(each) == 2:
+                self.belief.name(*each)
+            else:
+                self.belief.ground.fact(each)
 
     def settle(self) -> None:
         """What the last message showed is forgotten when the next one comes: forget it now."""

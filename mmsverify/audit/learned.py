@@ -7,64 +7,32 @@ are bounded: what is forgotten costs time, never a finding.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Hashable, Iterable, Iterator, MutableSequence, Sequence
+from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, Protocol, TypeVar
 
 from mmsverify.audit.classes import Split
 from mmsverify.audit.marks import Index, InvokeId
-from mmsverify.audit.snapshots import Mark, Snapshot, Snapshots
+from mmsverify.audit.snapshots import Mark, Own
+from mmsverify.audit.tables import NEW, PRESENT, Classes, State, Step, Tables, event
 from mmsverify.audit.telling import History
-from mmsverify.concrete.belief.partial import Key
-from mmsverify.formats.trace import Channel, TraceMessage
-from mmsverify.model import ModelData
+from mmsverify.formats.stretch import Stretch
+from mmsverify.formats.trace import TraceMessage
 from mmsverify.results import Finding
 
-LARGEST = 32 << 20
-"""Octets of states that are kept of one part."""
-MOST_CLASSES = 1 << 14
 LONGEST = 2048
 """Octets of a message that may have a class: of longer ones few are said twice, and all would be kept."""
-_MOST_STEPS = 1 << 17
 _TRIAL = 256  # so many messages are not known, and then it is seen how many were
 _REST = 8192  # messages
-_PRESENT = -1  # a mark that comes from the message itself
-_NEW = -1  # an invokeID that is none of the state's
 
-Listener = Callable[[int, int, Channel, bytes], Iterator[Finding] | tuple[()]]
-
-
-@dataclass(slots=True, eq=False)
-class _State:
-    """A state of the device: how to put it back, which of its marks are invokeIDs, and the steps from it.
-
-    Steps are by class of events, and by the mark that is the event's invokeID.
-    """
-
-    octets: bytes
-    kinds: tuple[type, ...]
-    invokes: tuple[int, ...]
-    steps: dict[tuple[int, int], _Step] = field(default_factory=dict)
-
-
-@dataclass(slots=True, eq=False)
-class _Step:
-    """What a class of events does in a state: where each mark of the next state comes from.
-
-    ``sources``: by number, those of the state before, or the message (or its invokeID, where true stands
-    beside); ``None`` where nothing changes.
-    ``wrote``: the cells of the belief that it wrote, with what made them so.
-    """
-
-    target: _State
-    sources: tuple[tuple[int, bool], ...] | None
-    wrote: dict[Key, tuple[str, ...]]
+Span = tuple[int, int]
+"""Two indices of messages, both within."""
 
 
 class Part(Protocol):
     """What is audited: its messages go in, findings come out. ``SHARED`` are the types of what is no state.
 
-    ``version``: states are comparable only as long as it is the same.
+    ``grown`` is what it has met: states mean the same only where that is the same, in the same order.
     """
 
     SHARED: ClassVar[tuple[type, ...]]
@@ -72,7 +40,8 @@ class Part(Protocol):
     @property
     def history(self) -> History: ...
     @property
-    def version(self) -> int: ...
+    def grown(self) -> Sequence[Any]: ...
+    def grow(self, grown: Iterable[Any]) -> None: ...
     def settle(self) -> None: ...
 
 
@@ -80,124 +49,131 @@ P = TypeVar("P", bound=Part)
 
 
 class Learned(Generic[P]):
-    """A part, its model and what was learned of it; ``judge`` gives the findings of a message.
+    """A part, and what was learned of such parts.
 
-    ``exact``: nothing is learned, and every message is judged by itself; so it is up to the index ``blind``.
+    ``exact``: nothing is learned, and every message is judged by itself; so it is within the spans ``blind``.
+    Whoever follows a conversation by the tables alone moves ``state`` and ``invokes`` (the invokeIDs that
+    are among the marks of the state), and adds to the ``trail`` the steps and their places in the stretch.
     """
 
     def __init__(
         self,
         part: P,
-        model: ModelData,
+        tables: Tables,
         judge: Callable[[P, TraceMessage], Iterator[Finding]],
         *,
         exact: bool = False,
-        blind: int = -1,
+        blind: Sequence[Span] = (),
     ) -> None:
+        self.tables = tables
+        self.state: State | None = None
+        self.invokes: tuple[int, ...] = ()
+        self.trail: MutableSequence[Step] = []
+        self.places: MutableSequence[int] = []
         self._exact, self._blind, self._judge = exact, blind, judge
         self._part: P | None = part
+        self._own: Own = {}
         self._history = part.history
-        self._snapshots = Snapshots(model, part.SHARED)
-        self._states: dict[tuple[bytes, tuple[int, ...], int], _State] = {}
-        self._size = self._steps = self._numbers = 0
-        self._classes: list[dict[bytes, int]] = []
-        self._state: _State | None = None
-        self._marks: list[Any] = []
-        self._pending: dict[_Step, int] = {}  # steps whose writing the history does not know yet
-        self._seen: set[int] = set()
+        self._grown = tables.root
+        self._marks: list[Mark] = []
         self._missed = self._began_trial = self._rests_until = 0
 
+    def listener(self, role: Hashable, split: Split, *, whole: bool = False) -> Listener:
+        """Who takes in the messages of one channel.
+
+        ``role`` tells it from the other channels of the device, in this recording and in any other. ``split``
+        takes the invokeID out of a message; ``whole``: there is none in any.
+        """
+        return Listener(self, self.tables.classes(role), split, whole)
+
     def beside(
-        self, act: Callable[[P, TraceMessage], Iterator[Finding]], message: TraceMessage
+        self, act: Callable[[P, TraceMessage], Iterator[Finding]], message: TraceMessage, stretch: Stretch
     ) -> Iterator[Finding]:
         """The findings of something else that happens, of which nothing is learned."""
-        part = self._awake()
-        self._state = None
+        part = self.awake(stretch)
+        self.state = None
         yield from act(part, _marked(message))
 
-    def listener(self, usual: Mapping[int, bytes], split: Split) -> Listener:
-        """Who takes in the messages of one channel, and gives their findings: mostly none.
+    def hear(
+        self, message: TraceMessage, stretch: Stretch, parts: tuple[bytes, int | None] | None, classes: Classes
+    ) -> Iterator[Finding]:
+        """The findings of a message of a class that the tables do not know, or not in this state.
 
-        ``split`` takes the invokeID out of a message; ``usual`` as in ``classes``.
+        ``parts``: the message without its invokeID, and that; ``None`` where the message has no class.
         """
-        classes: dict[bytes, int] = {}
-        self._classes.append(classes)
-        # Nearly all that is done in a long audit is done here: whatever is looked up often is at hand.
-        exact, blind, pending = self._exact, self._blind, self._pending
+        part = self.awake(stretch)
+        marked = _marked(message)
+        if parts is None or self._alone(message):
+            self.state = None
+            yield from self._judge(part, marked)
+            return
+        number, invoke = self.tables.number(classes, parts[0]), parts[1]
+        if number not in self.tables.seen:  # the first of a class is only noted
+            self.tables.seen.add(number)
+            self.state = None
+            yield from self._judge(part, marked)
+            return
+        if self.state is None:
+            self._intern(part)
+        if not self._known(number, invoke, stretch):
+            yield from self._learn(part, number, invoke, marked)
 
-        def heard(index: int, time: int, channel: Channel, data: bytes) -> Iterator[Finding] | tuple[()]:
-            if exact or index <= blind or len(data) > LONGEST:
-                return self._alone(TraceMessage(Index(index), time, channel, data))
-            parts: tuple[bytes, int | None] | None
-            # The first way is what `split` of MMS does, in short.
-            if len(data) > 4 and data[1] < 0x80 and data[2:4] == usual.get(data[0]) and data[4] < 0x80:
-                parts = data[:4] + data[5:], data[4]
-            else:
-                parts = split(data)
-                if parts is None:
-                    return self._alone(TraceMessage(Index(index), time, channel, data))
-            rest, invoke = parts
-            number = classes.get(rest) or self._class(classes, rest)
-            state = self._state
-            if state is None:
-                return self._learn(number, invoke, TraceMessage(Index(index), time, channel, data))
-            relation = _NEW
-            if invoke is not None:
-                for place in state.invokes:
-                    if self._marks[place] == invoke:
-                        relation = place
-            step = state.steps.get((number, relation))
-            if step is None:
-                return self._learn(number, invoke, TraceMessage(Index(index), time, channel, data))
-            if step.sources is not None:
-                marks, present = self._marks, (index, time, channel, data)
-                self._marks = [
-                    marks[source] if source >= 0 else (invoke if fresh else present)
-                    for source, fresh in step.sources
-                ]
-            if step.wrote:
-                pending[step] = index
-            self._state = step.target
-            self._part = None
-            return ()
+    def _known(self, number: int, invoke: int | None, stretch: Stretch) -> bool:
+        """Take the step of an event if the tables know it, as whoever follows by them would."""
+        state = self.state
+        step = state.steps.get(event(number, self._relation(invoke))) if state is not None else None
+        if step is None:
+            return False
+        if step.moves is not None:
+            self.invokes = tuple(invoke if m == PRESENT else self.invokes[m] for m in step.moves)  # type: ignore[misc]
+        self.state = step.target
+        self.trail.append(step)
+        self.places.append(stretch.places[-1])
+        return True
 
-        return heard
+    def _relation(self, invoke: int | None) -> int:
+        """Which of the state's invokeIDs it is: the last one, should two sides use the same."""
+        return max((n for n, held in enumerate(self.invokes) if held == invoke), default=NEW)
+
+    def awake(self, stretch: Stretch) -> P:
+        """The part itself, in the state that the tables have led to."""
+        self.catch_up(stretch)
+        if self._part is None:
+            assert self.state is not None
+            part: P = self.tables.snapshots.put_back(self.state.octets, self._marks, self._own)
+            self._grown = self.state.grown
+            part.grow(self._grown.path[len(part.grown) :])
+            self._part = part
+        return self._part
+
+    def blinded(self, spans: Sequence[Span]) -> None:
+        """Within these spans of indices, too, every message is judged by itself."""
+        self._blind = spans
+        self.state = None
 
     # The exact way.
 
-    def _alone(self, message: TraceMessage) -> Iterator[Finding]:
-        part = self._awake()
-        self._state = None
-        yield from self._judge(part, message)
+    def _alone(self, message: TraceMessage) -> bool:
+        """Whether a message is one of which nothing can be learned."""
+        index = message.index
+        blind = any(first <= index <= last for first, last in self._blind)
+        return self._exact or blind or len(message.data) > LONGEST or self._rests(index)
 
-    def _learn(self, number: int, invoke: int | None, message: TraceMessage) -> Iterator[Finding]:
-        """Ask the device, and remember the step if it told nothing; the first of a class is only noted."""
-        part = self._awake()
-        if self._rests(message.index) or number not in self._seen:
-            self._seen.add(number)
-            self._state = None
-            yield from self._judge(part, message)
-            return
-        if self._state is None:
-            self._intern(part)
-        before, marks = self._state, self._marks
-        assert before is not None
-        relation = next((n for n in before.invokes if marks[n] == invoke), _NEW)
+    def _learn(self, part: P, number: int, invoke: int | None, message: TraceMessage) -> Iterator[Finding]:
+        """Ask the device, and remember the step if it told nothing."""
+        before, marks, relation = self.state, self._marks, self._relation(invoke)
         told = False
         for finding in self._judge(part, message):
             told = True
             yield finding
         told = told or self._history.told_at(message.index)
         self._intern(part)
-        if told or self._state is None:
+        if told or self.state is None or before is None:
             return
         sources = self._sources(marks, message, invoke)
-        if sources is not None and self._steps < _MOST_STEPS:
-            same = before is self._state and sources == tuple(range(len(marks)))
-            fresh = tuple(zip(sources, (kind is InvokeId for kind in self._state.kinds), strict=True))
-            step = _Step(self._state, None if same else fresh, self._history.written_at(message.index))
-            before.steps[number, relation] = step
-            self._steps += 1
+        if sources is not None:
+            wrote = self._history.written_at(message.index)
+            self.tables.learn(before, event(number, relation), self.state, sources, wrote)
 
     def _rests(self, index: int) -> bool:
         """Whether nothing is learned for a while: where little comes again, to learn is a waste."""
@@ -211,63 +187,72 @@ class Learned(Generic[P]):
                 self._rests_until = self._began_trial = index + _REST
         return False
 
-    def _awake(self) -> P:
-        """The part itself, in the state that the tables have led to."""
-        if self._pending:
-            self._history.write_down((step.wrote, index) for step, index in self._pending.items())
-            self._pending.clear()
-        if self._part is None:
-            assert self._state is not None
-            kinds = self._state.kinds
-            marks = [_mark(kind, mark) for kind, mark in zip(kinds, self._marks, strict=True)]
-            self._marks = marks
-            self._part = self._snapshots.put_back(self._state.octets, marks)
-        return self._part
-
     def _intern(self, part: P) -> None:
         """Find out in which state the part is."""
         part.settle()
-        taken = self._snapshots.take(part)
+        taken = self.tables.snapshots.take(part, self._own)
+        self._grown = self.tables.grown(part.grown, self._grown)
         self._marks = list(taken.marks)
-        self._state = self._known(taken, part.version)
+        self.state = self.tables.state(taken, self._grown)
+        self._took()
 
-    def _known(self, taken: Snapshot, version: int) -> _State:
-        key = taken.octets, taken.order, version
-        if key not in self._states:
-            if self._size + len(taken.octets) > LARGEST:
-                self._forget()
-            kinds = tuple(type(mark) for mark in taken.marks)
-            invokes = tuple(n for n, kind in enumerate(kinds) if kind is InvokeId)
-            self._states[key] = _State(taken.octets, kinds, invokes)
-            self._size += len(taken.octets)
-        return self._states[key]
+    def _took(self) -> None:
+        self.invokes = tuple(int(mark) for mark in self._marks if isinstance(mark, InvokeId))
 
-    def _sources(self, marks: list[Any], message: TraceMessage, invoke: int | None) -> tuple[int, ...] | None:
+    def _sources(
+        self, marks: Sequence[Mark], message: TraceMessage, invoke: int | None
+    ) -> tuple[int, ...] | None:
         """Where the marks of the present state come from; ``None`` where one comes from nowhere."""
         before = {_name(mark): place for place, mark in reversed(list(enumerate(marks)))}
         found: list[int] = []
         for mark in self._marks:
-            place = before.get(_name(mark), _PRESENT)
-            if place == _PRESENT and _name(mark)[1] != (invoke if type(mark) is InvokeId else message.index):
+            place = before.get(_name(mark), PRESENT)
+            if place == PRESENT and _name(mark)[1] != (invoke if type(mark) is InvokeId else message.index):
                 return None
             found.append(place)
         return tuple(found)
 
-    def _class(self, classes: dict[bytes, int], rest: bytes) -> int:
-        """The number of a class that has none yet, from 1; none is used twice."""
-        if self._numbers % MOST_CLASSES == MOST_CLASSES - 1:
-            for each in self._classes:
-                each.clear()
-            self._seen.clear()
-            self._forget()
-        self._numbers += 1
-        classes[rest] = self._numbers
-        return self._numbers
+    # What the tables alone have done.
 
-    def _forget(self) -> None:
-        """Make room: what was learned is learned anew."""
-        self._states.clear()
-        self._size = self._steps = 0
+    def catch_up(self, stretch: Stretch) -> None:
+        """Write down what the steps of the trail have done, before their stretch is gone."""
+        if not self.trail:
+            return
+        last = {step: at for step, at in zip(self.trail, self.places, strict=True) if step.wrote}
+        self._history.write_down((step.wrote, stretch.index_at(at)) for step, at in last.items())
+        assert self.state is not None
+        invokes = iter(self.invokes)
+        self._marks = [
+            InvokeId(next(invokes)) if kind is InvokeId else self._traced(place, kind, stretch)
+            for place, kind in enumerate(self.state.kinds)
+        ]
+        self._part = None
+        self.trail.clear()
+        self.places.clear()
+
+    def _traced(self, place: int, kind: type, stretch: Stretch) -> Mark:
+        """A mark of the present state: the way back to the message that it comes from."""
+        for step, at in zip(reversed(self.trail), reversed(self.places), strict=True):
+            if step.sources is None:
+                continue
+            place = step.sources[place]
+            if place == PRESENT:
+                return Index(stretch.index_at(at)) if kind is Index else _marked(stretch.message(at))
+        return self._marks[place]
+
+
+@dataclass(slots=True, eq=False)
+class Listener:
+    """One channel: whose it is, and the classes of its messages."""
+
+    learned: Learned[Any]
+    classes: Classes
+    split: Split
+    whole: bool
+
+    def hear(self, message: TraceMessage, stretch: Stretch) -> Iterator[Finding]:
+        """The findings of a message."""
+        return self.learned.hear(message, stretch, self.split(message.data), self.classes)
 
 
 def _marked(message: TraceMessage) -> TraceMessage:
@@ -278,11 +263,3 @@ def _name(mark: Mark) -> tuple[str, int]:
     if isinstance(mark, TraceMessage):
         return "message", mark.index
     return type(mark).__name__, int(mark)
-
-
-def _mark(kind: type, mark: Any) -> Any:
-    """A mark as the device holds it: of a message that only passed by, the table kept what it was."""
-    if not isinstance(mark, tuple):
-        return InvokeId(mark) if kind is InvokeId else mark
-    index, time, channel, data = mark
-    return Index(index) if kind is Index else TraceMessage(Index(index), time, channel, data)

@@ -8,8 +8,9 @@ of the robot's state (RP-31). Only requests that may change it matter.
 from __future__ import annotations
 
 import json
+import struct
 from collections import defaultdict
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Set
 from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any
@@ -17,12 +18,16 @@ from typing import Any
 from mmsverify.audit.exchange import ANSWERS, OTHER_SIDE
 from mmsverify.audit.negotiation import ADDITIONAL
 from mmsverify.errors import DecodeError, InputError
+from mmsverify.formats import mcap_records as rec
 from mmsverify.formats import mms
 from mmsverify.formats.mcap import McapTrace
 from mmsverify.formats.mms import Pdu
+from mmsverify.formats.stretch import Stretch
 from mmsverify.formats.trace import Channel, TraceMessage
 
 INITIATES = (b"\xa8", b"\xa9")
+_INITIATES = frozenset(octet[0] for octet in INITIATES)
+_HEAD = struct.Struct("<BQHIQQB")  # the head of a message record, and the first octet of a PDU
 WAITS = 100
 """So many messages of its association may come before the answer to a request that is missing."""
 INQUIRIES = ("get", "identify", "read", "report", "status")
@@ -79,47 +84,50 @@ class Lookahead:
     Their Initiate shows no additional services, and no robot detail follows.
     """
 
-    def __init__(self, trace: McapTrace) -> None:
+    def __init__(self, trace: McapTrace, *, merged: bool = False) -> None:
         self._begun: dict[Key, bool] = {}
         self._requests: dict[Key, _Requests] = defaultdict(_Requests)
         self._blind: dict[Key, list[Span]] = defaultdict(list)
         with suppress(InputError):  # what cannot be read on is told when it is judged
-            self._look(trace)
+            for stretch in trace.stretches(merged=merged):
+                self._look(stretch)
         self.base_only = frozenset(key for key, robot in self._begun.items() if not robot)
 
-    def _look(self, trace: McapTrace) -> None:
+    def _look(self, stretch: Stretch) -> None:
         """Look at all messages; of an association of which all is known, at those of Initiate only."""
-        index = -1
-        keys: dict[int, tuple[Channel, Key | None]] = {}
-        settled: set[Key | None] = set()
-        for batch in trace.batches():
-            for time, _, channel, data in batch:
-                index += 1
-                known = keys.get(id(channel))
-                if known is None:
-                    known = keys[id(channel)] = channel, _association(channel)
-                key = known[1]
-                if key in settled and data[:1] not in INITIATES:
-                    continue
-                message = TraceMessage(index, time, channel, data)
-                if key is None:
-                    self._linked(message, settled)
-                    continue
-                self._heard(key, message)
-                if self._settled(key):
-                    settled.add(key)
-                else:
-                    settled.discard(key)
+        at, quiet = 0, set[int]()
+        while at < stretch.size:
+            at = _passed_by(stretch, at, quiet)
+            if at < stretch.size:
+                number = stretch.number(at)
+                at, message = stretch.next(at)
+                if message is None or self._begins(message):
+                    quiet.clear()
+                elif self._is_quiet(message):
+                    quiet.add(number)
+
+    def _begins(self, message: TraceMessage) -> bool:
+        """Take a message in; whether more is to be looked at from here on than before."""
+        key = association(message.channel)
+        if key is None:
+            return self._linked(message)
+        self._heard(key, message)
+        return message.data[:1] in INITIATES
+
+    def _is_quiet(self, message: TraceMessage) -> bool:
+        key = association(message.channel)
+        return key is not None and self._settled(key)
 
     def _settled(self, key: Key) -> bool:
         """Whether no message but Initiate and links can tell anything new."""
         return self._requests[key].since is None and self._begun.get(key, True)
 
-    def _linked(self, message: TraceMessage, settled: set[Key | None]) -> None:
-        if (happened := link(message)) is not None:
+    def _linked(self, message: TraceMessage) -> bool:
+        happened = link(message)
+        if happened is not None:
             key = message.metadata.get("name", ""), happened[0]
             self._requests[key].begin(message.index if happened[1] == "gap" else None)
-            settled.discard(key)
+        return happened is not None
 
     def blind(self, vmd: str) -> list[Span]:
         """Where requests to that device may be waiting that the recording does not show."""
@@ -129,7 +137,7 @@ class Lookahead:
     def _heard(self, key: Key, message: TraceMessage) -> None:
         requests = self._requests[key]
         if message.data[:1] in INITIATES:
-            self._begun[key] = self._begun.get(key, False) or _offers_additional(message.data)
+            self._begun[key] = self._begun.get(key, False) or offers_additional(message.data)
             requests.begin(None)
             return
         if key in self._begun and not self._begun[key] and _may_have_detail(message.data):
@@ -140,7 +148,22 @@ class Lookahead:
                     self._blind[key].append((requests.since or 0, message.index))
 
 
-def _association(channel: Channel) -> Key | None:
+def _passed_by(stretch: Stretch, at: int, quiet: Set[int]) -> int:
+    """Pass the messages that tell nothing: the offset of the first that may tell something."""
+    data, size, last, passed = stretch.data, stretch.size, stretch.last, stretch.places.append
+    while at < size:
+        opcode, length, number, _, time, _, kind = _HEAD.unpack_from(data, at)
+        end = at + rec.HEAD.size + length
+        if number not in quiet or kind in _INITIATES or opcode != rec.MESSAGE or end > size or time < last:
+            break
+        last = time
+        passed(at)
+        at = end
+    stretch.last = last
+    return at
+
+
+def association(channel: Channel) -> Key | None:
     """Whose messages stand on an MMS channel; ``None`` for any other channel."""
     if channel.message_encoding != "mms-ber":
         return None
@@ -167,7 +190,8 @@ def _decoded(octets: bytes) -> Iterator[Pdu]:
         return
 
 
-def _offers_additional(octets: bytes) -> bool:
+def offers_additional(octets: bytes) -> bool:
+    """Whether an Initiate shows services of the companion standard; one that cannot be read may."""
     for pdu in _decoded(octets):
         body: Mapping[str, Any] = pdu.body
         details = (body.get("initRequestDetail"), body.get("initResponseDetail"))

@@ -10,6 +10,7 @@ import os
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 from typing import BinaryIO
@@ -18,6 +19,7 @@ from mmsverify.errors import InputError
 from mmsverify.formats.mcap_records import Definitions, Message
 from mmsverify.formats.mcap_survey import Block, Survey, survey
 from mmsverify.formats.mcap_write import TraceWriter
+from mmsverify.formats.stretch import PAD, DisorderError, Stretch, joined
 from mmsverify.formats.trace import PROFILE_RECORD, TraceMessage
 
 __all__ = ["McapTrace", "TraceWriter", "read_trace"]
@@ -65,6 +67,46 @@ class McapTrace:
                 raise InputError(error.cause, place=self.path, cure=error.cure) from None
 
 
+    def stretches(self, *, merged: bool = False) -> Iterator[Stretch]:
+        """The same messages, as they stand in the file one chunk after the other.
+
+        Raises ``DisorderError`` where that is not event order, as far as the chunks say so; that their
+        messages are in order is for the reader to see. ``merged``: brought into order first, as `batches`.
+        """
+        yield from self._merged() if merged else self._as_they_stand()
+
+    def _as_they_stand(self) -> Iterator[Stretch]:
+        blocks = self._survey.blocks
+        if any(block.start < before.end for before, block in pairwise(blocks)):
+            raise DisorderError
+        known = _copied(self._survey)
+        index = last = 0
+        with _open(self.path) as file:
+            for block in blocks:
+                data = self._unpacked(file, block)
+                wrong = partial(self._wrong, block)
+                stretch = Stretch(data + PAD, len(data), index, last, known, wrong, block.cut)
+                yield stretch
+                index, last = index + len(stretch.places), stretch.last
+
+    def _unpacked(self, file: BinaryIO, block: Block) -> bytes:
+        try:
+            return block.unpack(file)
+        except InputError as error:
+            raise self._wrong(block, error) from None
+
+    def _wrong(self, block: Block, error: InputError) -> InputError:
+        cause = f"octet {block.position}: {error.cause}"
+        return InputError(cause, place=self.path, cure=error.cure)
+
+    def _merged(self) -> Iterator[Stretch]:
+        index = last = 0
+        for batch in self.batches():
+            stretch = joined(batch, index, last)
+            yield stretch
+            index, last = index + len(stretch.places), stretch.last
+
+
 def read_trace(path: str | os.PathLike[str]) -> McapTrace:
     """Survey an MCAP file: metadata and truncation are known at once, messages come by iterating.
 
@@ -96,8 +138,12 @@ def _open(place: str) -> BinaryIO:
         raise InputError(cause, place=place, cure="name an MCAP file that can be read") from None
 
 
+def _copied(found: Survey) -> Definitions:
+    return Definitions(dict(found.known.schemas), dict(found.known.channels))
+
+
 def _in_order(file: BinaryIO, found: Survey) -> Iterator[list[Message]]:
-    known = Definitions(dict(found.known.schemas), dict(found.known.channels))
+    known = _copied(found)
     if sum(block.unpacked for block in found.blocks) <= _SMALL:
         yield sorted(message for block in found.blocks for message in block.load(file, known))
         return

@@ -29,6 +29,7 @@ MESSAGE_FIXED = MESSAGE_HEAD.size - HEAD.size
 
 # A chunk is unpacked in memory, so its claim is a claim on memory. Recorders write chunks of 1 to 16 MiB.
 LARGEST_CHUNK = 64 << 20
+LARGEST_NUMBER = 0xFFFF  # of a channel
 MOST_MESSAGES = 400_000  # of one chunk: each takes some 250 octets beside its data, however small it is
 _PIECE = 4 << 20
 
@@ -117,15 +118,23 @@ def messages(data: bytes, base: int, known: Definitions, *, cut: bool) -> list[M
             channel = channels.get(number) or _nameless(number, channels)
             found.append((time, base + at, channel, data[at + MESSAGE_HEAD.size : following]))
             if len(found) > MOST_MESSAGES:
-                raise InputError(
-                    f"a chunk of more than {MOST_MESSAGES} messages", cure="write smaller chunks"
-                )
+                raise too_many()
         elif opcode in (SCHEMA, CHANNEL):
             known.learn(opcode, data[at + HEAD.size : following])
         at = following
     if at < size and not cut:
         raise InputError("the last record leads out of its chunk")
     return found
+
+
+def too_many() -> InputError:
+    """What is said of a chunk of more than ``MOST_MESSAGES``."""
+    return InputError(f"a chunk of more than {MOST_MESSAGES} messages", cure="write smaller chunks")
+
+
+def channel_of(number: int, known: Definitions) -> Channel:
+    """The channel of that number, whether it is defined or not."""
+    return known.channels.get(number) or _nameless(number, known.channels)
 
 
 def _nameless(number: int, channels: dict[int, Channel]) -> Channel:

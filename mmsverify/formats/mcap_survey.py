@@ -39,12 +39,16 @@ class Block:
 
     def load(self, file: BinaryIO, known: rec.Definitions) -> list[rec.Message]:
         """The messages of this block in their order; channels defined inside go to ``known``."""
-        file.seek(self.position)
         try:
-            data = rec.unpack(file.read(self.size), self.compression, self.unpacked, self.crc, cut=self.cut)
+            data = self.unpack(file)
             return rec.messages(data, self.number << 32, known, cut=self.cut)
         except InputError as error:
             raise InputError(f"octet {self.position}: {error.cause}", cure=error.cure) from None
+
+    def unpack(self, file: BinaryIO) -> bytes:
+        """The records of this block."""
+        file.seek(self.position)
+        return rec.unpack(file.read(self.size), self.compression, self.unpacked, self.crc, cut=self.cut)
 
 
 @dataclass(slots=True)

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
 
-from mmsverify.audit.replay import FRAMEWORK, ROBOT, SIGNALS, Replay
+from mmsverify.audit.parts import FRAMEWORK, ROBOT, SIGNALS
+from mmsverify.audit.replay import Replay
 from mmsverify.formats.mcap import read_trace
 from mmsverify.profiles import for_recording
 from mmsverify.results import Exercise, Register

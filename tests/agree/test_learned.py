@@ -16,7 +16,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mmsverify.audit import learned
+from mmsverify.audit import learned, tables
 from mmsverify.audit.classes import split
 from mmsverify.audit.device import Device
 from mmsverify.audit.telling import History
@@ -103,8 +103,8 @@ def test_many_muddled_conversations_are_told_alike(seed: int, tmp_path: Path) ->
 
 
 def test_what_is_forgotten_costs_no_finding(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(learned, "LARGEST", 100_000)
-    monkeypatch.setattr(learned, "MOST_CLASSES", 20)
+    monkeypatch.setattr(tables, "LARGEST", 100_000)
+    monkeypatch.setattr(tables, "MOST_CLASSES", 20)
     path = tmp_path / "made.mcap"
     muddle(3, path, 20)
     assert told(path, exact=False) == told(path, exact=True)

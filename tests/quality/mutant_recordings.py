@@ -47,7 +47,7 @@ def judged(path: Path, model: ModelData) -> Found:
         **from_metadata(trace.profile, str(path)),
     }
     replay = Replay(trace, tables, None, model.variant)
-    replay.model = model
+    replay.parts.model = model
     return [(f.index, f.rule, f.severity) for f in replay.run() if f.severity != "note"]
 
 

@@ -6,7 +6,7 @@ cells that it names and, of the others, what they held last.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any, ClassVar
 
@@ -57,7 +57,8 @@ class Controller:
 
     SHARED: ClassVar[tuple[type, ...]] = (Scans, Numbering, Blaming, Place, History)
     """The types of what all its states share."""
-    version: int = 0
+    grown: tuple[()] = ()
+    """Nothing is met that is not in the model from the beginning."""
 
     def __init__(self, place: Place, scans: Scans, numbering: Numbering) -> None:
         self._place = place
@@ -102,6 +103,9 @@ class Controller:
         else:
             self._lawless = None
         yield from self._follow(message, shown, said.cells)
+
+    def grow(self, grown: Iterable[object]) -> None:
+        """Nothing to grow."""
 
     def settle(self) -> None:
         """Nothing waits for the next sample to be forgotten."""

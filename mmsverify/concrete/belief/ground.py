@@ -23,7 +23,7 @@ from mmsverify.concrete.belief.nodes import (
     Not,
     Remember,
 )
-from mmsverify.concrete.belief.partial import OTHER, Fact, Partial, World
+from mmsverify.concrete.belief.partial import OTHER, Identity, Key, Partial, World
 from mmsverify.concrete.belief.slots import CellBeside, CellBits, Constant, Sum, Value
 from mmsverify.concrete.belief.values import ABSENT, EITHER, NO, YES, Env, everything, exactly, single
 from mmsverify.model import expr as ex
@@ -150,25 +150,19 @@ class Ground:
 
     def _remember(self, expr: Quantified, env: Env) -> Remember:
         """A formula that is left open for unseen names is kept for when they are seen."""
-        body, world = expr.body, self.world
-        given = {
-            name: env[name] for name in (*(ref.name for ref in expr.bound), *mentioned(body)) if name in env
-        }
+        mentions = (*(ref.name for ref in expr.bound), *mentioned(expr.body))
+        given = frozenset((name, env[name]) for name in mentions if name in env)
+        bound = tuple((ref.name, ref.of.name) for ref in expr.bound)
 
         def remember(state: Partial, want: bool) -> Partial:
-            key = world.fact(
-                (body, want, frozenset(given.items())),
-                lambda: Fact(
-                    about=lambda at: self.formula(body, at),
-                    want=want,
-                    env=given,
-                    bound=tuple((ref.name, ref.of.name) for ref in expr.bound),
-                    variables=ex.variables_of(body),
-                ),
-            )
-            return state.put(key, YES)
+            return state.put(self.fact((expr.body, want, given, bound)), YES)
 
         return remember
+
+    def fact(self, identity: Identity) -> Key:
+        """The key of a fact about unseen names; it is made where there is none yet."""
+        body = identity[0]
+        return self.world.fact(identity, lambda at: self.formula(body, at), ex.variables_of(body))
 
     def value(self, expr: Expr, env: Env) -> Value | None:
         """The value; ``None`` where it rests on a parameter that is not given."""

@@ -75,11 +75,21 @@ class Place:
         return self.full << self.shift
 
 
+Identity = tuple[Any, bool, frozenset[tuple[str, Any]], tuple[tuple[str, str], ...]]
+"""What makes a fact what it is: its formula, its truth value, its environment and its quantified names."""
+Growth = tuple[ElementSort, str] | Identity
+"""A name that is seen, or a fact that is made."""
+
+
 class World:
-    """What the partial states of one belief share: the model's variables, the names seen so far by sort."""
+    """What the partial states of one belief share: the model's variables, the names seen so far by sort.
+
+    ``grown`` are the names and facts in the order in which they came: what states mean rests on nothing else.
+    """
 
     def __init__(self, model: ModelData) -> None:
         self.model = model
+        self.grown: list[Growth] = []
         self.full: dict[str, Known] = {s.name: everything(s.of) for s in model.signatures.values()}
         self.full |= {UNSEEN: EITHER}
         self.names: dict[str, list[str]] = {sort.name: [OTHER] for sort in model.sorts.values()}
@@ -105,11 +115,6 @@ class World:
         self.all |= place.bits
         self.of_variable[key[0]] |= place.bits
 
-    @property
-    def size(self) -> int:
-        """How many bits its states have; it grows with each name that is seen."""
-        return len(self.at_bit)
-
     def blank(self) -> Partial:
         """The partial state that knows nothing."""
         return Partial(self, self.all, {})
@@ -121,6 +126,7 @@ class World:
     def add(self, sort: ElementSort, name: str) -> list[tuple[Key, Key]]:
         """See a name; its new cells, each with the one of ``OTHER`` that it takes over from."""
         self.names[sort.name].append(name)
+        self.grown.append((sort, name))
         self.survives.clear()
         found: list[tuple[Key, Key]] = []
         for signature in self.model.signatures.values():
@@ -147,11 +153,13 @@ class World:
             yield place
             bits &= ~place.bits
 
-    def fact(self, identity: Any, make: Callable[[], Fact]) -> Key:
+    def fact(self, identity: Identity, about: Callable[[Env], Reading], variables: frozenset[str]) -> Key:
         """The key under which a state holds the fact of that identity."""
         if identity not in self._numbers:
+            _, want, env, bound = identity
             self._numbers[identity] = len(self.facts)
-            self.facts.append(make())
+            self.facts.append(Fact(about, want, dict(env), bound, variables))
+            self.grown.append(identity)
         return UNSEEN, (str(self._numbers[identity]),)
 
     def fact_of(self, key: Key) -> Fact:

@@ -1,0 +1,34 @@
+"""What a process keeps from one recording to the next: models as they were loaded, and what was learned.
+
+Nothing in it depends on which recordings were audited before, or in which order, but the time that it saves.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable, Hashable
+from typing import Any, TypeVar, cast
+
+T = TypeVar("T")
+MOST = 12
+"""Things that are kept; a model and its tables are two, for each variant and profile."""
+
+
+class Kept:
+    """Things by what they depend on; those that were used longest ago make room."""
+
+    def __init__(self) -> None:
+        self._things: OrderedDict[Hashable, Any] = OrderedDict()
+
+    def get(self, key: Hashable, make: Callable[[], T]) -> T:
+        """The thing of that key, made where there is none yet."""
+        if key not in self._things:
+            self._things[key] = make()
+            if len(self._things) > MOST:
+                self._things.popitem(last=False)
+        self._things.move_to_end(key)
+        return cast(T, self._things[key])
+
+
+PROCESS = Kept()
+"""What this process keeps."""

@@ -1,0 +1,163 @@
+"""What was learned of devices of one model under one profile: states, classes of events, and steps between.
+
+Nothing here belongs to one recording: no place of a message, no name that is not in the state itself. So
+what one recording has taught serves the next one of such a device.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from mmsverify.audit.marks import InvokeId
+from mmsverify.audit.snapshots import Snapshot, Snapshots
+from mmsverify.concrete.belief.partial import Key
+from mmsverify.model import ModelData
+
+LARGEST = 32 << 20
+"""Octets of states that are kept."""
+MOST_CLASSES = 1 << 14
+MOST_STEPS = 1 << 17
+MOST_INVOKES = 14
+"""Requests that may wait at once in a state that is kept."""
+MOST_GROWN = 1 << 14
+
+PRESENT = -1
+"""The source of a mark that comes from the message itself."""
+NEW = -1
+"""The relation of an invokeID that is none of the state's."""
+
+Classes = dict[bytes, int]
+"""By what is left of a message without its invokeID: the number of its class."""
+
+
+@dataclass(slots=True, eq=False)
+class Grown:
+    """What was met up to here, as a way through a tree: the same things in the same order are one object."""
+
+    path: tuple[Any, ...] = ()
+    then: dict[Any, Grown] = field(default_factory=dict)
+
+
+@dataclass(slots=True, eq=False)
+class State:
+    """A state of a device: how to put it back, which of its marks are invokeIDs, and the steps from it.
+
+    Steps are by ``event``.
+    """
+
+    octets: bytes
+    kinds: tuple[type, ...]
+    grown: Grown
+    invokes: tuple[int, ...]
+    steps: dict[int, Step] = field(default_factory=dict)
+
+
+@dataclass(slots=True, eq=False)
+class Step:
+    """What a class of events does in a state: where each mark of the next state comes from.
+
+    ``sources``: by number, those of the state before, or ``PRESENT``; ``None`` where all stay in place.
+    ``moves``: the same for those that are invokeIDs, counted among themselves.
+    ``wrote``: the cells of the belief that it wrote, with what made them so.
+    """
+
+    target: State
+    sources: tuple[int, ...] | None
+    moves: tuple[int, ...] | None
+    wrote: dict[Key, tuple[str, ...]]
+
+
+def event(number: int, relation: int) -> int:
+    """A class of events, and which of the state's invokeIDs the event bears, as one number."""
+    return number << 4 | relation + 1
+
+
+class Tables:
+    """The states, classes and steps of devices that share a model and a profile.
+
+    ``epoch`` grows when all is forgotten, for want of room; what a device holds stays good for it.
+    """
+
+    def __init__(self, model: ModelData, shared: Iterable[type]) -> None:
+        self.snapshots = Snapshots(model, shared)
+        self.epoch = 0
+        self._roles: dict[Hashable, Classes] = {}
+        self._root, self._grown = Grown(), 0
+        self._states: dict[tuple[bytes, tuple[int, ...], Grown], State] = {}
+        self._size = self._steps = self._numbers = 0
+        self.seen: set[int] = set()
+        """The classes of which an event has been met: only the second one is worth a state."""
+
+    def classes(self, role: Hashable) -> Classes:
+        """The classes of the messages of one role in the conversation."""
+        return self._roles.setdefault(role, {})
+
+    def number(self, classes: Classes, rest: bytes) -> int:
+        """The number of a class, from 1; none is used twice."""
+        found = classes.get(rest)
+        if found is not None:
+            return found
+        if self._numbers % MOST_CLASSES == MOST_CLASSES - 1:
+            self.forget()
+        self._numbers += 1
+        classes[rest] = self._numbers
+        return self._numbers
+
+    def grown(self, path: Sequence[Any], known: Grown) -> Grown:
+        """The object of what was met; ``known`` is that of the first part of it."""
+        for each in path[len(known.path) :]:
+            if each not in known.then:
+                self._grown += 1
+                known.then[each] = Grown((*known.path, each))
+            known = known.then[each]
+        return known
+
+    @property
+    def root(self) -> Grown:
+        """Where nothing has been met."""
+        return self._root
+
+    def state(self, taken: Snapshot, grown: Grown) -> State | None:
+        """The state of a snapshot; ``None`` where too many requests wait in it."""
+        key = taken.octets, taken.order, grown
+        found = self._states.get(key)
+        if found is None:
+            kinds = tuple(type(mark) for mark in taken.marks)
+            invokes = tuple(n for n, kind in enumerate(kinds) if kind is InvokeId)
+            if len(invokes) > MOST_INVOKES:
+                return None
+            if self._size + len(taken.octets) > LARGEST or self._grown > MOST_GROWN:
+                self.forget()
+            found = self._states[key] = State(taken.octets, kinds, grown, invokes)
+            self._size += len(taken.octets)
+        return found
+
+    def learn(
+        self,
+        before: State,
+        event: int,
+        target: State,
+        sources: tuple[int, ...],
+        wrote: dict[Key, tuple[str, ...]],
+    ) -> None:
+        """Keep a step, where there is room."""
+        if self._steps >= MOST_STEPS:
+            return
+        places = {place: n for n, place in enumerate(before.invokes)}
+        moves = tuple(places.get(sources[n], PRESENT) for n in target.invokes)
+        still = before.invokes == target.invokes and sources == tuple(range(len(before.kinds)))
+        same = moves == tuple(range(len(before.invokes)))
+        before.steps[event] = Step(target, None if still else sources, None if same else moves, wrote)
+        self._steps += 1
+
+    def forget(self) -> None:
+        """Make room: what was learned is learned anew."""
+        for classes in self._roles.values():
+            classes.clear()
+        self.seen.clear()
+        self._states.clear()
+        self._root, self._grown = Grown(), 0
+        self._size = self._steps = 0
+        self.epoch += 1
