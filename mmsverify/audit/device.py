@@ -43,7 +43,8 @@ class Device:
     """The replay of one robot's messages.
 
     ``arms`` are the domains of its arms; to associations in ``base_only`` the robot standard does not apply.
-    In the spans of indices ``blind``, what the recording does not show may still be performed.
+    In the spans of indices ``blind``, what the recording does not show may still be performed. ``history``
+    is where it is written down what was written and told.
     """
 
     def __init__(
@@ -53,13 +54,14 @@ class Device:
         arms: frozenset[str],
         base_only: frozenset[str] = frozenset(),
         blind: Sequence[tuple[int, int]] = (),
+        history: History | None = None,
     ) -> None:
         self.belief = belief
         self.base_only = base_only
         self.blind = tuple(blind)
         self._associations: dict[str, Association] = {}
         self._acquaintance = Acquaintance(belief.world.names["ProgramInvocation"])
-        self._telling = Telling(place)
+        self._telling = Telling(place, history)
         self._performing = Performing(belief, self._telling, self._acquaintance, arms)
         self._showing = Showing(belief, self._telling, self._acquaintance, arms)
         self._transfers = Transfers(belief, self._telling)

@@ -45,23 +45,27 @@ class Part(Protocol):
     def settle(self) -> None: ...
 
 
+
 P = TypeVar("P", bound=Part)
+Judge = Callable[[P, TraceMessage], Iterator[Finding]]
 
 
 class Learned(Generic[P]):
     """A part, and what was learned of such parts.
 
-    ``exact``: nothing is learned, and every message is judged by itself; so it is within the spans ``blind``.
+    ``make`` makes a part that has not seen anything, where one is needed; parts of one ``kind`` are then in the
+    same state. ``exact``: nothing is learned, and every message is judged by itself; so it is within the spans ``blind``.
     Whoever follows a conversation by the tables alone moves ``state`` and ``invokes`` (the invokeIDs that
     are among the marks of the state), and adds to the ``trail`` the steps and their places in the stretch.
     """
 
     def __init__(
         self,
-        part: P,
+        make: Callable[[History], P],
         tables: Tables,
-        judge: Callable[[P, TraceMessage], Iterator[Finding]],
+        judge: Judge[P],
         *,
+        kind: Hashable = None,
         exact: bool = False,
         blind: Sequence[Span] = (),
     ) -> None:
@@ -71,12 +75,20 @@ class Learned(Generic[P]):
         self.trail: MutableSequence[Step] = []
         self.places: MutableSequence[int] = []
         self._exact, self._blind, self._judge = exact, blind, judge
-        self._part: P | None = part
+        self._history = History()
+        self._make = make
+        self._part: P | None = None
         self._own: Own = {}
-        self._history = part.history
         self._grown = tables.root
         self._marks: list[Mark] = []
         self._missed = self._began_trial = self._rests_until = 0
+        if not exact:
+            self.state = tables.initial.get(kind)
+        if self.state is None:
+            self._part = make(self._history)
+            if not exact:
+                self._intern(self._part)
+                tables.initial[kind] = self.state
 
     def listener(self, role: Hashable, split: Split, *, whole: bool = False) -> Listener:
         """Who takes in the messages of one channel.
@@ -86,37 +98,33 @@ class Learned(Generic[P]):
         """
         return Listener(self, self.tables.classes(role), split, whole)
 
-    def beside(
-        self, act: Callable[[P, TraceMessage], Iterator[Finding]], message: TraceMessage, stretch: Stretch
-    ) -> Iterator[Finding]:
-        """The findings of something else that happens, of which nothing is learned."""
-        part = self.awake(stretch)
-        self.state = None
-        yield from act(part, _marked(message))
-
     def hear(
-        self, message: TraceMessage, stretch: Stretch, parts: tuple[bytes, int | None] | None, classes: Classes
+        self,
+        message: TraceMessage,
+        stretch: Stretch,
+        parts: tuple[bytes, int | None] | None,
+        classes: Classes,
+        judge: Judge[P] | None = None,
     ) -> Iterator[Finding]:
-        """The findings of a message of a class that the tables do not know, or not in this state.
+        """The findings of a message that was not followed by the tables alone.
 
         ``parts``: the message without its invokeID, and that; ``None`` where the message has no class.
+        ``judge``: who judges it, where it is not the usual one.
         """
-        part = self.awake(stretch)
-        marked = _marked(message)
-        if parts is None or self._alone(message):
+        act = judge or self._judge
+        number = None if parts is None or self._alone(message) else self.tables.number(classes, parts[0])
+        invoke = None if parts is None else parts[1]
+        if number is None or number not in self.tables.seen:
+            if number is not None:
+                self.tables.seen.add(number)  # the first of a class is only noted
+            part = self.awake(stretch)
             self.state = None
-            yield from self._judge(part, marked)
-            return
-        number, invoke = self.tables.number(classes, parts[0]), parts[1]
-        if number not in self.tables.seen:  # the first of a class is only noted
-            self.tables.seen.add(number)
-            self.state = None
-            yield from self._judge(part, marked)
+            yield from act(part, _marked(message))
             return
         if self.state is None:
-            self._intern(part)
+            self._intern(self.awake(stretch))
         if not self._known(number, invoke, stretch):
-            yield from self._learn(part, number, invoke, marked)
+            yield from self._learn(act, number, invoke, _marked(message), stretch)
 
     def _known(self, number: int, invoke: int | None, stretch: Stretch) -> bool:
         """Take the step of an event if the tables know it, as whoever follows by them would."""
@@ -140,6 +148,8 @@ class Learned(Generic[P]):
         self.catch_up(stretch)
         if self._part is None:
             assert self.state is not None
+            if not self._own:  # of the part that is made only what no state changes is used
+                self.tables.snapshots.take(self._make(self._history), self._own)
             part: P = self.tables.snapshots.put_back(self.state.octets, self._marks, self._own)
             self._grown = self.state.grown
             part.grow(self._grown.path[len(part.grown) :])
@@ -159,11 +169,14 @@ class Learned(Generic[P]):
         blind = any(first <= index <= last for first, last in self._blind)
         return self._exact or blind or len(message.data) > LONGEST or self._rests(index)
 
-    def _learn(self, part: P, number: int, invoke: int | None, message: TraceMessage) -> Iterator[Finding]:
+    def _learn(
+        self, judge: Judge[P], number: int, invoke: int | None, message: TraceMessage, stretch: Stretch
+    ) -> Iterator[Finding]:
         """Ask the device, and remember the step if it told nothing."""
+        part = self.awake(stretch)
         before, marks, relation = self.state, self._marks, self._relation(invoke)
         told = False
-        for finding in self._judge(part, message):
+        for finding in judge(part, message):
             told = True
             yield finding
         told = told or self._history.told_at(message.index)

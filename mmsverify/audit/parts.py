@@ -10,7 +10,7 @@ from mmsverify.audit.device import Device
 from mmsverify.audit.kept import Kept
 from mmsverify.audit.modbus import Access, Plan, Server
 from mmsverify.audit.tables import Tables as LearnedTables
-from mmsverify.audit.telling import Place
+from mmsverify.audit.telling import History, Place
 from mmsverify.audit.vr import Controller, Numbering, Scans
 from mmsverify.concrete.automaton import Automaton, TooManyStatesError
 from mmsverify.concrete.belief import Belief
@@ -56,7 +56,9 @@ class Parts:
         )
         return tables
 
-    def device(self, place: Place, base_only: frozenset[str], blind: Sequence[tuple[int, int]]) -> Device:
+    def device(
+        self, place: Place, base_only: frozenset[str], blind: Sequence[tuple[int, int]], history: History
+    ) -> Device:
         """A robot of which the recording has not shown anything yet; the rest as in `Device`."""
         belief = Belief(self.model, self._facts(), self._proved())
         if not belief.states:
@@ -65,7 +67,7 @@ class Parts:
                 place=self._path,
                 cure="run mmsverify check mms-robot with this profile: it names the clause",
             )
-        return Device(place, belief, self._arms(), base_only, blind)
+        return Device(place, belief, self._arms(), base_only, blind, history)
 
     def _facts(self) -> dict[Any, Any]:
         scenario = self.model.options["scenario"]
@@ -90,10 +92,10 @@ class Parts:
 
     # Controllers of the template framework.
 
-    def controller(self, place: Place) -> Controller:
+    def controller(self, place: Place, history: History | None = None) -> Controller:
         """A controller of which the recording has not shown anything yet."""
         scans, numbering, _ = self._framework
-        return Controller(place, scans, numbering)
+        return Controller(place, scans, numbering, history)
 
     @property
     def framework_tables(self) -> LearnedTables:

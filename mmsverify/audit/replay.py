@@ -5,16 +5,17 @@ What a message means to its device is told in ``device``.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 
 from mmsverify.audit.classes import split, whole
 from mmsverify.audit.device import Device
 from mmsverify.audit.kept import Kept
-from mmsverify.audit.learned import Learned, Listener
+from mmsverify.audit.learned import Learned, Listener, Span
 from mmsverify.audit.lookahead import INITIATES, Lookahead, association, link, offers_additional
 from mmsverify.audit.modbus import Server
 from mmsverify.audit.parts import FRAMEWORK, ROBOT, SIGNALS, Parts, Tables
-from mmsverify.audit.telling import Place
+from mmsverify.audit.telling import History, Place
 from mmsverify.audit.vr import Controller
 from mmsverify.audit.walk import follow
 from mmsverify.concrete.belief.coverage import Coverage
@@ -64,7 +65,7 @@ class Replay:
         self.coverage: list[Coverage] = []
         self._devices: dict[str, Learned[Device]] = {}
         self._controllers: dict[str, Controller] = {}
-        self._learners: dict[Controller, Learned[Controller]] = {}
+        self._learners: dict[str, Learned[Controller]] = {}
         self._servers: dict[str, Server] = {}
         self._sure: set[tuple[str, str]] = set()
         self._judges: dict[int, tuple[Channel, Judge]] = {}
@@ -170,13 +171,11 @@ class Replay:
     def _beside(self, message: TraceMessage, stretch: Stretch) -> Iterator[Finding]:
         """A link event, or what nobody knows."""
         if (happened := link(message)) is not None:
-            connection, event = happened
-            if event == "gap" and self._ahead is None:
+            if happened[1] == "gap" and self._ahead is None:
                 self._look_ahead(message.index, stretch)
             device = self._device(message.metadata.get("name", ""))
-            yield from device.beside(
-                lambda part, marked: part.link(connection, event, marked), message, stretch
-            )
+            classes = self.parts.robot_tables.classes("link")
+            yield from device.hear(message, stretch, whole(message.data), classes, _link)
         elif (happened := link(message, "modbus")) is not None:
             self._server(message.metadata.get("name", "")).link(*happened, message)
         else:
@@ -190,11 +189,13 @@ class Replay:
         return self._controllers[name]
 
     def _learned(self, channel: Channel) -> Learned[Controller]:
-        controller = self.controller(channel)
-        if controller not in self._learners:
-            tables = self.parts.framework_tables
-            self._learners[controller] = Learned(controller, tables, Controller.sample, exact=self._exact)
-        return self._learners[controller]
+        name = channel.metadata.get("controller", "")
+        if name not in self._learners:
+            tables, place = self.parts.framework_tables, Place(self.trace.path, name)
+            self._learners[name] = Learned(
+                partial(self.parts.controller, place), tables, Controller.sample, exact=self._exact
+            )
+        return self._learners[name]
 
     def _server(self, name: str) -> Server:
         if name not in self._servers:
@@ -204,11 +205,28 @@ class Replay:
     def _device(self, vmd: str) -> Learned[Device]:
         if vmd not in self._devices:
             blind = self._ahead.blind(vmd) if self._ahead is not None else []
-            device = self.parts.device(Place(self.trace.path, vmd), self._base_only(vmd), blind)
-            self.coverage.append(device.belief.coverage)
-            tables = self.parts.robot_tables
-            self._devices[vmd] = Learned(device, tables, Device.message, exact=self._exact, blind=blind)
+            base_only = self._base_only(vmd)
+            self._devices[vmd] = Learned(
+                partial(self._new, Place(self.trace.path, vmd), base_only, blind),
+                self.parts.robot_tables,
+                Device.message,
+                kind=(base_only, tuple(blind)),
+                exact=self._exact,
+                blind=blind,
+            )
         return self._devices[vmd]
+
+    def _new(
+        self, place: Place, base_only: frozenset[str], blind: Sequence[Span], history: History
+    ) -> Device:
+        device = self.parts.device(place, base_only, blind, history)
+        self.coverage.append(device.belief.coverage)
+        return device
+
+
+def _link(device: Device, message: TraceMessage) -> Iterator[Finding]:
+    connection, event = link(message) or ("", "")
+    return device.link(connection, event, message)
 
 
 def _known(model: str | None) -> str | None:

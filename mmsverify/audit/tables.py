@@ -87,6 +87,8 @@ class Tables:
         self._root, self._grown = Grown(), 0
         self._states: dict[tuple[bytes, tuple[int, ...], Grown], State] = {}
         self._size = self._steps = self._numbers = 0
+        self.initial: dict[Hashable, State | None] = {}
+        """By kind of device: the state of one that has not seen anything."""
         self.seen: set[int] = set()
         """The classes of which an event has been met: only the second one is worth a state."""
 
@@ -157,6 +159,7 @@ class Tables:
         for classes in self._roles.values():
             classes.clear()
         self.seen.clear()
+        self.initial.clear()
         self._states.clear()
         self._root, self._grown = Grown(), 0
         self._size = self._steps = 0

@@ -79,9 +79,9 @@ class History:
 class Telling:
     """What is told of one device, and what has been told of it."""
 
-    def __init__(self, place: Place) -> None:
+    def __init__(self, place: Place, history: History | None = None) -> None:
         self.place = place
-        self.history = History()
+        self.history = history or History()
 
     def outcome(
         self,

@@ -60,11 +60,13 @@ class Controller:
     grown: tuple[()] = ()
     """Nothing is met that is not in the model from the beginning."""
 
-    def __init__(self, place: Place, scans: Scans, numbering: Numbering) -> None:
+    def __init__(
+        self, place: Place, scans: Scans, numbering: Numbering, history: History | None = None
+    ) -> None:
         self._place = place
         self._scans, self._numbering, self._blaming = scans, numbering, Blaming(scans)
         self._sub_modes = SubModes(scans, numbering.sub_modes)
-        self.history = History()
+        self.history = history or History()
         self._states: States = scans.automaton.all
         self._cells: dict[str, float] = {}
         self._told: dict[str, float] = {}
