@@ -33,13 +33,15 @@ class Manner:
     """How recordings are to be audited.
 
     ``exact``: each message is judged by itself, and not by what was learned from those before: slow, and the
-    same findings.
+    same findings. ``kernel``: whether compiled loops (extra ``fast``) follow what was learned; ``None``: where
+    they are installed and the recording is long.
     """
 
     profile: Path | None = None
     model: str | None = None
     variant: str = "repaired"
     exact: bool = False
+    kernel: bool | None = None
 
 
 def audit_traces(
@@ -50,13 +52,14 @@ def audit_traces(
     variant: str = "repaired",
     progress: Callable[[str], None] | None = None,
     exact: bool = False,
+    kernel: bool | None = None,
     jobs: int = 1,
 ) -> Audit:
     """Replay every trace against its model. An unreadable file is a finding; the others are audited.
 
     ``exact`` as in `Manner`; ``jobs``: so many processes share the work. The result is the same.
     """
-    manner = Manner(profile, model, variant, exact)
+    manner = Manner(profile, model, variant, exact, kernel)
     load_profile(profile)  # a bad one is told before any work is done
     if jobs > 1 and len(paths) > 1:
         from mmsverify.audit.sharing import shared
@@ -108,6 +111,7 @@ def _audit(
         manner.variant,
         exact=manner.exact,
         kept=None if manner.exact else PROCESS,
+        kernel=manner.kernel,
     )
     findings = list(_findings(replay, Path(trace.path)))
     if trace.truncated and not replay.messages and not findings:

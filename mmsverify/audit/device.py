@@ -52,6 +52,7 @@ class Device:
         place: Place,
         belief: Belief,
         arms: frozenset[str],
+        *,
         base_only: frozenset[str] = frozenset(),
         blind: Sequence[tuple[int, int]] = (),
         history: History | None = None,
@@ -86,7 +87,8 @@ class Device:
         """Take in what another robot's device has met, before one of its states is put in place of this."""
         for each in grown:
             if len(each) == 2:
-                self.belief.name(*each)
+                self.belief.world.add(*each)
+                self.belief.unseen.forget()
             else:
                 self.belief.ground.fact(each)
 

@@ -7,15 +7,16 @@ are bounded: what is forgotten costs time, never a finding.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterable, Iterator, MutableSequence, Sequence
+from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar, Generic, Protocol, TypeVar
 
 from mmsverify.audit.classes import Split
 from mmsverify.audit.marks import Index, InvokeId
 from mmsverify.audit.snapshots import Mark, Own
-from mmsverify.audit.tables import NEW, PRESENT, Classes, State, Step, Tables, event
+from mmsverify.audit.tables import NEW, PRESENT, Classes, State, Tables, event
 from mmsverify.audit.telling import History
+from mmsverify.audit.trail import ListedTrail, Trail
 from mmsverify.formats.stretch import Stretch
 from mmsverify.formats.trace import TraceMessage
 from mmsverify.results import Finding
@@ -45,7 +46,6 @@ class Part(Protocol):
     def settle(self) -> None: ...
 
 
-
 P = TypeVar("P", bound=Part)
 Judge = Callable[[P, TraceMessage], Iterator[Finding]]
 
@@ -53,10 +53,10 @@ Judge = Callable[[P, TraceMessage], Iterator[Finding]]
 class Learned(Generic[P]):
     """A part, and what was learned of such parts.
 
-    ``make`` makes a part that has not seen anything, where one is needed; parts of one ``kind`` are then in the
-    same state. ``exact``: nothing is learned, and every message is judged by itself; so it is within the spans ``blind``.
-    Whoever follows a conversation by the tables alone moves ``state`` and ``invokes`` (the invokeIDs that
-    are among the marks of the state), and adds to the ``trail`` the steps and their places in the stretch.
+    ``make`` makes a part that has not seen anything, where one is needed; parts of one ``kind`` are then in
+    the same state. ``exact``: nothing is learned, and every message is judged by itself; so it is within the
+    spans ``blind``. Whoever follows a conversation by the tables alone moves ``state`` and ``invokes`` (the
+    invokeIDs that are among the marks of the state), and adds the steps to the ``trail``.
     """
 
     def __init__(
@@ -72,8 +72,7 @@ class Learned(Generic[P]):
         self.tables = tables
         self.state: State | None = None
         self.invokes: tuple[int, ...] = ()
-        self.trail: MutableSequence[Step] = []
-        self.places: MutableSequence[int] = []
+        self.trail: Trail = ListedTrail()
         self._exact, self._blind, self._judge = exact, blind, judge
         self._history = History()
         self._make = make
@@ -129,17 +128,16 @@ class Learned(Generic[P]):
     def _known(self, number: int, invoke: int | None, stretch: Stretch) -> bool:
         """Take the step of an event if the tables know it, as whoever follows by them would."""
         state = self.state
-        step = state.steps.get(event(number, self._relation(invoke))) if state is not None else None
+        step = state.steps.get(event(number, self.relation(invoke))) if state is not None else None
         if step is None:
             return False
         if step.moves is not None:
             self.invokes = tuple(invoke if m == PRESENT else self.invokes[m] for m in step.moves)  # type: ignore[misc]
         self.state = step.target
-        self.trail.append(step)
-        self.places.append(stretch.places[-1])
+        self.trail.append(step, stretch.places[-1])
         return True
 
-    def _relation(self, invoke: int | None) -> int:
+    def relation(self, invoke: int | None) -> int:
         """Which of the state's invokeIDs it is: the last one, should two sides use the same."""
         return max((n for n, held in enumerate(self.invokes) if held == invoke), default=NEW)
 
@@ -174,7 +172,7 @@ class Learned(Generic[P]):
     ) -> Iterator[Finding]:
         """Ask the device, and remember the step if it told nothing."""
         part = self.awake(stretch)
-        before, marks, relation = self.state, self._marks, self._relation(invoke)
+        before, marks, relation = self.state, self._marks, self.relation(invoke)
         told = False
         for finding in judge(part, message):
             told = True
@@ -231,8 +229,7 @@ class Learned(Generic[P]):
         """Write down what the steps of the trail have done, before their stretch is gone."""
         if not self.trail:
             return
-        last = {step: at for step, at in zip(self.trail, self.places, strict=True) if step.wrote}
-        self._history.write_down((step.wrote, stretch.index_at(at)) for step, at in last.items())
+        self._history.write_down((step.wrote, stretch.index_at(at)) for step, at in self.trail.last_written())
         assert self.state is not None
         invokes = iter(self.invokes)
         self._marks = [
@@ -241,17 +238,13 @@ class Learned(Generic[P]):
         ]
         self._part = None
         self.trail.clear()
-        self.places.clear()
 
     def _traced(self, place: int, kind: type, stretch: Stretch) -> Mark:
-        """A mark of the present state: the way back to the message that it comes from."""
-        for step, at in zip(reversed(self.trail), reversed(self.places), strict=True):
-            if step.sources is None:
-                continue
-            place = step.sources[place]
-            if place == PRESENT:
-                return Index(stretch.index_at(at)) if kind is Index else _marked(stretch.message(at))
-        return self._marks[place]
+        """A mark of the present state, from the message that it comes from."""
+        at, place = self.trail.origin(place)
+        if at is None:
+            return self._marks[place]
+        return Index(stretch.index_at(at)) if kind is Index else _marked(stretch.message(at))
 
 
 @dataclass(slots=True, eq=False)

@@ -35,9 +35,7 @@ class Parts:
         self.profile = tables.get(ROBOT, {})
 
     def _load(self, name: str) -> ModelData:
-        return self._kept.get(
-            ("model", name, self._variant), lambda: load(name, models_dir(), self._variant)
-        )
+        return self._kept.get(("model", name, self._variant), lambda: load(name, models_dir(), self._variant))
 
     # Robots.
 
@@ -67,7 +65,7 @@ class Parts:
                 place=self._path,
                 cure="run mmsverify check mms-robot with this profile: it names the clause",
             )
-        return Device(place, belief, self._arms(), base_only, blind, history)
+        return Device(place, belief, self._arms(), base_only=base_only, blind=blind, history=history)
 
     def _facts(self) -> dict[Any, Any]:
         scenario = self.model.options["scenario"]

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
+from typing import TYPE_CHECKING
 
 from mmsverify.audit.classes import split, whole
 from mmsverify.audit.device import Device
@@ -17,7 +18,7 @@ from mmsverify.audit.modbus import Server
 from mmsverify.audit.parts import FRAMEWORK, ROBOT, SIGNALS, Parts, Tables
 from mmsverify.audit.telling import History, Place
 from mmsverify.audit.vr import Controller
-from mmsverify.audit.walk import follow
+from mmsverify.audit.walk import Walk
 from mmsverify.concrete.belief.coverage import Coverage
 from mmsverify.errors import InputError, UsageError
 from mmsverify.formats.mcap import McapTrace
@@ -25,7 +26,12 @@ from mmsverify.formats.stretch import DisorderError, Stretch
 from mmsverify.formats.trace import Channel, TraceMessage
 from mmsverify.results import Finding
 
+if TYPE_CHECKING:
+    from mmsverify.audit.kernel import Kernel
+
 SAMPLES = "vr.Sample"
+LONG = 16 << 20
+"""From so many octets on, a recording is worth the time that it takes to make the compiled loops ready."""
 Judge = Listener | Callable[[TraceMessage, Stretch], Iterator[Finding]]
 """Takes the messages of a channel, and gives their findings."""
 
@@ -38,7 +44,8 @@ class Replay:
     """One recording under a profile.
 
     ``exact``: every message is judged by itself, and nothing is learned from those before; the findings are
-    the same. ``kept``: what has been loaded and learned for other recordings. ``messages``, ``events`` and
+    the same. ``kept``: what has been loaded and learned for other recordings. ``kernel``: whether compiled loops
+    follow what was learned; where nothing is said, if they are installed and the recording is long. ``messages``, ``events`` and
     ``skipped`` are counts, true once the run is over; ``coverage`` is what the events of each device have
     exercised, as far as nothing was known of them before.
     """
@@ -52,13 +59,33 @@ class Replay:
         *,
         exact: bool = False,
         kept: Kept | None = None,
+        kernel: bool | None = None,
     ) -> None:
         self.trace = trace
-        self.parts = Parts(tables, variant, kept or Kept(), trace.path)
+        self._kept = kept or Kept()
+        self.parts = Parts(tables, variant, self._kept, trace.path)
         self._exact, self._asked = exact, _known(model)
         self._ahead: Lookahead | None = None
         self._merged = False
+        self._walk = self._quick_way(kernel)
         self._begin()
+
+    def _quick_way(self, kernel: bool | None) -> Walk | Kernel:
+        """By compiled loops where they are installed and worth it, or wanted."""
+        if kernel is False or self._exact or (kernel is None and self.trace.octets < LONG):
+            return Walk()
+        try:
+            from mmsverify.audit.kernel import Kernel
+            from mmsverify.audit.mirror import Mirror
+        except ImportError:
+            if kernel:
+                raise UsageError(
+                    "the compiled loops are not installed",
+                    place="--kernel",
+                    cure="pip install 'mmsverify[fast]'",
+                ) from None
+            return Walk()
+        return Kernel(self._kept.get("mirror", Mirror))
 
     def _begin(self) -> None:
         self.messages = self.events = self.skipped = 0
@@ -102,19 +129,22 @@ class Replay:
 
     def _stretch(self, stretch: Stretch) -> Iterator[Finding]:
         at = 0
-        listeners: dict[int, Listener | None] = {}
+        self._walk.start(stretch)
         while at < stretch.size:
-            at = follow(stretch, at, listeners)
+            at = self._walk.follow(stretch, at)
             if at == stretch.size:
                 break
             number = stretch.number(at)
             at, message = stretch.next(at)
             if message is None:
-                listeners.clear()  # it may have defined a channel anew
+                self._walk.begin()  # it may have defined a channel anew
                 continue
             judge = self._judge(message, stretch)
-            listeners[number] = judge if isinstance(judge, Listener) else None
-            yield from judge.hear(message, stretch) if isinstance(judge, Listener) else judge(message, stretch)
+            if isinstance(judge, Listener):
+                self._walk.route(number, judge)
+                yield from judge.hear(message, stretch)
+            else:
+                yield from judge(message, stretch)
         for device in self._devices.values():
             device.catch_up(stretch)
         for controller in self._learners.values():

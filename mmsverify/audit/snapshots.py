@@ -42,7 +42,7 @@ Own = dict[type, Any]
 
 
 class Snapshots:
-    """Takes and puts back the states of devices of one model. ``own``: the types of what one device's share."""
+    """Takes and puts back states of devices of one model. ``own``: the types of what one device's share."""
 
     def __init__(self, model: ModelData, own: Iterable[type]) -> None:
         self._shared: dict[int, Any] = {}

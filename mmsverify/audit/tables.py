@@ -21,6 +21,8 @@ MOST_CLASSES = 1 << 14
 MOST_STEPS = 1 << 17
 MOST_INVOKES = 14
 """Requests that may wait at once in a state that is kept."""
+MOST_MARKS = 64
+"""Of a state that is kept."""
 MOST_GROWN = 1 << 14
 
 PRESENT = -1
@@ -122,13 +124,13 @@ class Tables:
         return self._root
 
     def state(self, taken: Snapshot, grown: Grown) -> State | None:
-        """The state of a snapshot; ``None`` where too many requests wait in it."""
+        """The state of a snapshot; ``None`` where too much of it changes with every message."""
         key = taken.octets, taken.order, grown
         found = self._states.get(key)
         if found is None:
             kinds = tuple(type(mark) for mark in taken.marks)
             invokes = tuple(n for n, kind in enumerate(kinds) if kind is InvokeId)
-            if len(invokes) > MOST_INVOKES:
+            if len(invokes) > MOST_INVOKES or len(kinds) > MOST_MARKS:
                 return None
             if self._size + len(taken.octets) > LARGEST or self._grown > MOST_GROWN:
                 self.forget()

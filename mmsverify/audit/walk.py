@@ -1,90 +1,108 @@
 """From message to message of a stretch by what was learned, as long as it is known: the quick way.
 
 Nearly all that is done in a long audit is done here, so one function does it all, with what it looks up at
-hand. It takes the usual form of a PDU only; whatever is otherwise is left to who called.
+hand. It takes the usual forms of a PDU only; whatever is otherwise is left to who called.
 """
 
 from __future__ import annotations
 
 import struct
-from collections.abc import Mapping
+from typing import Any
 
-from mmsverify.audit.classes import ERROR
-from mmsverify.audit.learned import Listener
-from mmsverify.audit.tables import NEW, PRESENT
+from mmsverify.audit.classes import ERROR, split
+from mmsverify.audit.learned import Learned, Listener
+from mmsverify.audit.tables import NEW, PRESENT, Classes
+from mmsverify.audit.trail import ListedTrail
 from mmsverify.formats import mcap_records as rec
 from mmsverify.formats.stretch import DisorderError, Stretch
 
-# The head of a message record, and of a PDU: its first octet, its length, then of the invokeID the first
-# octet, the length and the first octet of its number.
-_HEAD = struct.Struct("<BQHIQQBBBBB")
+# Of a message record: opcode, length, channel, log time; of the PDU in it: its first octet, its length; of
+# the invokeID that stands first in it: its length and its first octet.
+_HEAD = struct.Struct("<BQH4xQ8xBBxBB")
 _DATA = rec.MESSAGE_HEAD.size
-_SHORT = 0x80  # from here on the octet of a length says how many octets hold it
+_NUMBER = _DATA + 4  # where the number of a usual invokeID begins
+_LONG = 0x80  # from here on the octet of a length says how many octets hold it
+_NEGATIVE = 0x80
+_NONE = -1  # where there is no invokeID
 
 
-def follow(stretch: Stretch, at: int, listeners: Mapping[int, Listener | None]) -> int:
-    """Pass the messages from ``at`` on that the tables know; the offset of the first that they do not.
+class Walk:
+    """Follows the messages of stretches by the tables."""
 
-    ``listeners`` by number of the channel.
-    """
-    data, size, last = stretch.data, stretch.size, stretch.last
-    head, passed = _HEAD.unpack_from, stretch.places.append
-    current = -1
-    learned = state = None
+    def __init__(self) -> None:
+        self._routes: dict[int, tuple[Listener, dict[int, Classes]]] = {}
+        self._of: dict[int, dict[int, Classes]] = {}
+
+    def start(self, stretch: Stretch) -> None:
+        """A stretch begins."""
+        self.begin()
+
+    def begin(self) -> None:
+        """Forget whose the channels are: their numbers may mean others from here on."""
+        self._routes.clear()
+        self._of.clear()
+
+    def route(self, number: int, listener: Listener) -> None:
+        """The messages on the channel of that number are the listener's."""
+        of = self._of.setdefault(id(listener.learned), {})
+        of[number] = listener.classes
+        self._routes[number] = listener, of
+
+    def follow(self, stretch: Stretch, at: int) -> int:
+        """Pass the messages from ``at`` on that the tables know; the offset of the first that they do not.
+
+        Raises ``DisorderError`` where one is older than the one before.
+        """
+        before = -1
+        while before < at < stretch.size:
+            before = at
+            route = self._routes.get(stretch.number(at))
+            if route is not None:
+                listener, classes = route
+                at = _follow(stretch, at, listener.learned, classes, whole=listener.whole)
+        return at
+
+
+def _follow(
+    stretch: Stretch, at: int, learned: Learned[Any], routes: dict[int, Classes], *, whole: bool
+) -> int:
+    """Pass the messages of one device, until there is another's."""
+    state, invokes, trail = learned.state, learned.invokes, learned.trail
+    if state is None:
+        return at
+    assert isinstance(trail, ListedTrail)
+    data, size, last, head = stretch.data, stretch.size, stretch.last, _HEAD.unpack_from
+    step_taken, placed, passed = trail.steps.append, trail.places.append, stretch.places.append
     while at < size:
-        opcode, length, number, _, time, _, kind, short, _, width, first = head(data, at)
-        if number != current or learned is None:
-            if learned is not None:
-                learned.state, learned.invokes = state, invokes
-            listener = listeners.get(number)
-            learned = None
-            if listener is None:
-                break
-            learned, classes, whole, current = listener.learned, listener.classes, listener.whole, number
-            state, invokes = learned.state, learned.invokes
-            step_taken, placed = learned.trail.append, learned.places.append
-        begin, end = at + _DATA, at + rec.HEAD.size + length
-        if state is None or opcode != rec.MESSAGE or end > size:
+        opcode, length, number, time, kind, short, width, first = head(data, at)
+        end = at + rec.HEAD.size + length
+        classes = routes.get(number)
+        if classes is None or opcode != rec.MESSAGE or end > size:
             break
-        relation = NEW
+        body, relation = at + _NUMBER + width, NEW
         if whole or kind > ERROR:
-            rest = data[begin:end]
+            rest, invoke = data[at + _DATA : end], _NONE
+        elif 0 < first < _NEGATIVE and short < _LONG and body <= end:
+            invoke = first if width == 1 else int.from_bytes(data[at + _NUMBER : body])
+            rest = data[at + _DATA : at + _NUMBER] + data[body:end]
+        elif (parts := split(data[at + _DATA : end])) is not None:
+            rest, invoke = parts[0], _NONE if parts[1] is None else parts[1]
         else:
-            body = begin + 4 + width
-            # A number that is negative or longer than it need be is not what the others of its class are.
-            if (
-                short >= _SHORT
-                or body > end
-                or first >= _SHORT
-                or (not first and width > 1 and data[begin + 5] < _SHORT)
-            ):
-                break
-            rest = data[begin : begin + 4] + data[body:end]
-            if invokes:
-                invoke = first if width == 1 else int.from_bytes(data[begin + 4 : body])
-                if invoke in invokes:
-                    # The last of them, should two sides use the same.
-                    relation = len(invokes) - 1 - invokes[::-1].index(invoke)
+            break
+        if invoke in invokes:  # the last of them, should two sides use the same
+            relation = len(invokes) - 1 - invokes[::-1].index(invoke)
         known = classes.get(rest)
-        step = state.steps.get(known << 4 | relation + 1) if known is not None else None
+        step = None if known is None else state.steps.get(known << 4 | relation + 1)
         if step is None:
             break
         if time < last:
             raise DisorderError
-        last = time
-        moves = step.moves
-        if moves is not None:
-            if not moves:
-                invokes = ()
-            else:
-                invoke = first if width == 1 else int.from_bytes(data[begin + 4 : begin + 4 + width])
-                invokes = tuple([invoke if m == PRESENT else invokes[m] for m in moves])
-        state = step.target
+        if step.moves is not None:
+            invokes = tuple([invoke if move == PRESENT else invokes[move] for move in step.moves])
+        state, last = step.target, time
         step_taken(step)
         placed(at)
         passed(at)
         at = end
-    if learned is not None:
-        learned.state, learned.invokes = state, invokes
-    stretch.last = last
+    learned.state, learned.invokes, stretch.last = state, invokes, last
     return at

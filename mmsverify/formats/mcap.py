@@ -51,6 +51,11 @@ class McapTrace:
         """The pairs of the metadata record ``mmsverify.profile``; empty where the file has none."""
         return self.metadata.get(PROFILE_RECORD, {})
 
+    @property
+    def octets(self) -> int:
+        """How large all messages are together, as far as the chunks tell, with what stands between them."""
+        return sum(block.unpacked for block in self._survey.blocks)
+
     def __iter__(self) -> Iterator[TraceMessage]:
         index = 0
         for batch in self.batches():
@@ -65,7 +70,6 @@ class McapTrace:
                 yield from _in_order(file, self._survey)
             except InputError as error:
                 raise InputError(error.cause, place=self.path, cure=error.cure) from None
-
 
     def stretches(self, *, merged: bool = False) -> Iterator[Stretch]:
         """The same messages, as they stand in the file one chunk after the other.

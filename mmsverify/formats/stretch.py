@@ -7,8 +7,9 @@ for a message where it wants one.
 from __future__ import annotations
 
 from bisect import bisect_left
-from collections.abc import Callable, MutableSequence, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from typing import Protocol
 
 from mmsverify.errors import InputError
 from mmsverify.formats import mcap_records as rec
@@ -20,6 +21,14 @@ PAD = bytes(64)
 
 class DisorderError(Exception):
     """A message is older than one before it: the order of the file is not that of the events."""
+
+
+class Places(Protocol):
+    """Offsets, in growing order."""
+
+    def append(self, at: int, /) -> None: ...
+    def __len__(self) -> int: ...
+    def __getitem__(self, number: int, /) -> int: ...
 
 
 @dataclass(slots=True, eq=False)
@@ -38,7 +47,7 @@ class Stretch:
     known: rec.Definitions
     wrong: Callable[[InputError], InputError]
     cut: bool = False
-    places: MutableSequence[int] = field(default_factory=list)
+    places: Places = field(default_factory=list[int])
 
     def message(self, at: int) -> TraceMessage:
         """The message at that offset."""

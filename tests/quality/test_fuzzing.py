@@ -89,7 +89,7 @@ def test_the_watch_tells_crashes_hangs_and_refusals(watch: Watch) -> None:
 
 def test_the_watch_tells_what_takes_too_much_memory() -> None:
     def takes(octets: bytes) -> bool:
-        # More than this process ever held: what other tests have given back is filled first, and tells nothing.
+        # More than this process ever held: what other tests have given back is filled first.
         return len(bytearray(octets) * (int(peak() + 200) << 20)) > 0
 
     with Watch(largest=peak() + 100) as one:

@@ -82,21 +82,14 @@ class Belief:
         """A name has been seen in the recording."""
         if self.world.known(sort, name):
             return
-        cells = self.name(sort, name)
+        cells = self.world.add(sort, name)
+        self.unseen.forget()
         self.states = [after for state in self.states for after in state.meets(name, sort, cells)]
         for watch in (*self._watches.values(), *self._asked.values(), self._accepted):
             watch.earlier = [
                 [after for state in states for after in state.meets(name, sort, cells)]
                 for states in watch.earlier
             ]
-
-    def name(self, sort: ElementSort, name: str) -> list[tuple[Key, Key]]:
-        """Give a name cells of its own; as `World.add`. The states do not have them yet."""
-        cells = self.world.add(sort, name)
-        self.made.forget()
-        self.constraints.forget()
-        self.unseen.forget()
-        return cells
 
     def environment(self, phase: str, service: str, bindings: Mapping[str, Any]) -> dict[str, Any]:
         """The values of an event's parameters as the readers take them; its names are seen.

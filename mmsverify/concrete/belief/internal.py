@@ -97,7 +97,9 @@ class Unseen:
         self._panel = frozenset[str]().union(*(r.writes for r in panel))
 
     def forget(self) -> None:
-        """Drop what was remembered: a new name has been seen."""
+        """Drop what was remembered, here and of rows and invariants: a new name has been seen."""
+        self.made.forget()
+        self.constraints.forget()
         self._memo.clear()
         self._steps.clear()
         self._fields.clear()

@@ -1,0 +1,210 @@
+"""The quick way through a stretch by compiled loops (extra ``fast``): the same as `walk`, many times as fast.
+
+The loops pass what the arrays know. Where they stop at something that the tables know, it is entered, and
+they go on; at all else, whoever called goes on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+
+from mmsverify.audit import kernel_loops as loops
+from mmsverify.audit.learned import Learned, Listener
+from mmsverify.audit.mirror import DEVICES, Mirror
+from mmsverify.audit.tables import Step, event
+from mmsverify.audit.trail import ListedTrail, Origin
+from mmsverify.audit.walk import Walk
+from mmsverify.formats import mcap_records as rec
+from mmsverify.formats.stretch import DisorderError, Stretch
+
+_LATEST = 1 << 62  # ns; times beyond are not counted by the loops
+_TRIED, _WORTH = 64, 8
+"""After so many calls, so many messages must have been passed at each, or the loops are not worth it."""
+_AGAIN = 16  # stretches, and then it is tried again
+
+
+class Kernel:
+    """Follows the messages of stretches by the compiled loops, as `Walk` does."""
+
+    def __init__(self, mirror: Mirror) -> None:
+        self._mirror = mirror
+        self._walk = Walk()
+        self._devices: list[Learned[Any]] = []
+        self._listeners: dict[int, Listener] = {}
+        self._walking = 0
+        self._calls = self._passed = 0
+
+    def start(self, stretch: Stretch) -> None:
+        """A stretch begins."""
+        if self._walking > 0:
+            self._walking -= 1
+        elif self._calls > _TRIED and self._passed < _WORTH * self._calls:
+            self._walking = _AGAIN
+        self._calls = self._passed = 0
+        for learned in self._devices:
+            learned.trail = ListedTrail()
+        self._devices.clear()
+        self.begin()
+        if self._walking or stretch.last > _LATEST:
+            self._walking = max(self._walking, 1)
+            return
+        most = stretch.size // rec.MESSAGE_HEAD.size + 2
+        arrays = self._mirror.arrays
+        arrays.counts[:] = 0, 0, stretch.last
+        self._mirror.arrays = arrays._replace(trail=np.empty((most, 3), "i8"), places=np.empty(most, "i8"))
+        stretch.places = _Places(self._mirror.arrays.places, arrays.counts)
+
+    def begin(self) -> None:
+        """As `Walk.begin`."""
+        self._walk.begin()
+        self._listeners.clear()
+        self._mirror.arrays.channels[:, loops.DEVICE] = -1
+
+    def route(self, number: int, listener: Listener) -> None:
+        """As `Walk.route`."""
+        self._walk.route(number, listener)
+        if self._walking or self._listeners.get(number) is listener:
+            return
+        learned = listener.learned
+        if learned not in self._devices:
+            if len(self._devices) == DEVICES:
+                return
+            learned.trail = KernelTrail(self._mirror, len(self._devices))
+            self._devices.append(learned)
+        device, arrays = self._devices.index(learned), self._mirror.arrays
+        arrays.channels[number] = device, self._mirror.role(listener)
+        arrays.devices[device, loops.WHOLE] = listener.whole
+        self._listeners[number] = listener
+
+    def follow(self, stretch: Stretch, at: int) -> int:
+        """As `Walk.follow`."""
+        if self._walking:
+            return self._walk.follow(stretch, at)
+        if self._mirror.full or any(self._mirror.stale(each.tables) for each in self._devices):
+            self._anew(stretch)
+        octets = np.frombuffer(stretch.data, np.uint8)
+        self._give(stretch)
+        while True:
+            at, why = self._mirror.follow(octets, at, stretch.size)
+            self._take(stretch)
+            if why == loops.DISORDER:
+                raise DisorderError
+            if at >= stretch.size or not self._teach(stretch, at):
+                return at
+            self._give(stretch)
+
+    def _anew(self, stretch: Stretch) -> None:
+        """Fill the arrays anew, after all that they led to has been written down."""
+        for learned in self._devices:
+            learned.catch_up(stretch)
+        old = self._mirror.arrays
+        self._mirror.clear()
+        kept = {"trail": old.trail, "places": old.places, "counts": old.counts}
+        self._mirror.arrays = self._mirror.arrays._replace(**kept)
+        listeners = dict(self._listeners)
+        self._listeners.clear()
+        for number, listener in listeners.items():
+            self.route(number, listener)
+
+    def _give(self, stretch: Stretch) -> None:
+        """Where the devices are."""
+        arrays = self._mirror.arrays
+        arrays.counts[loops.LAST] = stretch.last
+        for own, learned in zip(arrays.devices, self._devices, strict=False):
+            own[loops.STATE] = -1 if learned.state is None else self._mirror.state(learned.state)
+            own[loops.COUNT] = len(learned.invokes)
+            own[loops.INVOKES : loops.INVOKES + len(learned.invokes)] = learned.invokes
+
+    def _take(self, stretch: Stretch) -> None:
+        """Where the devices are after the loops."""
+        arrays = self._mirror.arrays
+        self._calls += 1
+        self._passed = int(arrays.counts[loops.STEPS])
+        stretch.last = int(arrays.counts[loops.LAST])
+        for own, learned in zip(arrays.devices, self._devices, strict=False):
+            if own[loops.STATE] >= 0:
+                learned.state = self._mirror.states[own[loops.STATE]]
+                end = loops.INVOKES + own[loops.COUNT]
+                learned.invokes = tuple(own[loops.INVOKES : end].tolist())
+
+    def _teach(self, stretch: Stretch, at: int) -> bool:
+        """Enter the step that the tables know for the message at which the loops have stopped."""
+        opcode, length = rec.HEAD.unpack_from(stretch.data, at)
+        end = at + rec.HEAD.size + length
+        listener = self._listeners.get(stretch.number(at))
+        if opcode != rec.MESSAGE or end > stretch.size or at >= stretch.size or listener is None:
+            return False
+        parts, learned = listener.split(stretch.data[at + rec.MESSAGE_HEAD.size : end]), listener.learned
+        number = None if parts is None else listener.classes.get(parts[0])
+        if learned.state is None or parts is None or number is None or self._mirror.full:
+            return False
+        happens = event(number, learned.relation(parts[1]))
+        step = learned.state.steps.get(happens)
+        return step is not None and self._mirror.enter(
+            listener, parts[0], number, learned.state, happens, step
+        )
+
+
+class KernelTrail:
+    """The trail of one device, in the arrays."""
+
+    def __init__(self, mirror: Mirror, device: int) -> None:
+        self._mirror, self._device = mirror, device
+        self._begin = int(mirror.arrays.counts[loops.STEPS])
+        mirror.arrays.devices[device, loops.PENDING] = 0
+
+    def __bool__(self) -> bool:
+        return bool(self._mirror.arrays.devices[self._device, loops.PENDING])
+
+    def append(self, step: Step, at: int) -> None:
+        """As `Trail`."""
+        arrays = self._mirror.arrays
+        number = arrays.counts[loops.STEPS]
+        arrays.trail[number] = self._mirror.step(step), at, self._device
+        arrays.counts[loops.STEPS] += 1
+        arrays.devices[self._device, loops.PENDING] += 1
+
+    def last_written(self) -> Iterable[tuple[Step, int]]:
+        """As `Trail`."""
+        steps = self._mirror.steps
+        last = np.full(len(steps), -1, "i8")
+        self._mirror.code.last_of_each(self._mirror.arrays.trail, self._begin, self._end, self._device, last)
+        found = np.flatnonzero(last >= 0).tolist()
+        return [(steps[number], int(last[number])) for number in found if steps[number].wrote]
+
+    def origin(self, place: int) -> Origin:
+        """As `Trail`."""
+        a, ends = self._mirror.arrays, (self._begin, self._end)
+        at, place = self._mirror.code.origin(a.trail, a.steps, a.sources, *ends, self._device, place)
+        return (None if at < 0 else int(at)), int(place)
+
+    def clear(self) -> None:
+        """As `Trail`."""
+        self._begin = self._end
+        self._mirror.arrays.devices[self._device, loops.PENDING] = 0
+
+    @property
+    def _end(self) -> int:
+        return int(self._mirror.arrays.counts[loops.STEPS])
+
+
+class _Places:
+    """The offsets of the messages of a stretch, in an array."""
+
+    def __init__(self, places: Any, counts: Any) -> None:
+        self._places, self._counts = places, counts
+
+    def append(self, at: int, /) -> None:
+        self._places[self._counts[loops.PLACES]] = at
+        self._counts[loops.PLACES] += 1
+
+    def __len__(self) -> int:
+        return int(self._counts[loops.PLACES])
+
+    def __getitem__(self, number: int, /) -> int:
+        if not -len(self) <= number < len(self):
+            raise IndexError(number)
+        return int(self._places[number if number >= 0 else number + len(self)])

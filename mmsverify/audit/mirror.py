@@ -1,0 +1,177 @@
+"""States, steps and classes as arrays, for the kernel: what the tables hold, as far as it was met.
+
+Filled where the loops stop at something that the tables know; when it is full, it is filled anew.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+import numba
+import numpy as np
+
+from mmsverify.audit import kernel_loops as loops
+from mmsverify.audit.classes import ERROR
+from mmsverify.audit.learned import Listener
+from mmsverify.audit.tables import MOST_MARKS, State, Step, Tables
+
+STATES, POOL = 1 << 15, 1 << 22
+_SLOTS = 1 << 16
+"""Of the tables for classes and for steps, of which half are used."""
+_CHANNELS = 1 << 16
+DEVICES = 64
+
+
+def compiled(function: Callable[..., Any]) -> Any:
+    """A loop as machine code; kept on disk where there is a place that can be written."""
+    try:
+        return numba.njit(cache=True)(function)
+    except RuntimeError:  # no place for it: a container that is read-only
+        return numba.njit(function)
+
+
+class Arrays(NamedTuple):
+    """What the loops read and write, by the columns that are named there.
+
+    ``channels`` by number; ``devices``, ``steps``, their ``moves`` and ``sources`` by number here; ``classes``
+    (their octets in the ``pool``) and ``entries`` are hash tables; ``trail`` are step, offset and device of
+    each message followed, ``places`` the offsets of all.
+    """
+
+    channels: Any
+    devices: Any
+    classes: Any
+    pool: Any
+    entries: Any
+    steps: Any
+    moves: Any
+    sources: Any
+    scratch: Any
+    trail: Any
+    places: Any
+    counts: Any
+
+
+@dataclass(frozen=True, slots=True)
+class Code:
+    """The compiled loops."""
+
+    follow: Any = field(default_factory=lambda: compiled(loops.follow))
+    last_of_each: Any = field(default_factory=lambda: compiled(loops.last_of_each))
+    origin: Any = field(default_factory=lambda: compiled(loops.origin))
+    put_class: Any = field(default_factory=lambda: compiled(loops.put_class))
+    put_step: Any = field(default_factory=lambda: compiled(loops.put_step))
+
+
+class Mirror:
+    """The arrays, and what the numbers in them stand for."""
+
+    def __init__(self) -> None:
+        self.code = Code()
+        self.clear()
+
+    def clear(self) -> None:
+        """Hold nothing any more."""
+        self.states: list[State] = []
+        self.steps: list[Step] = []
+        self._states: dict[State, int] = {}
+        self._steps: dict[Step, int] = {}
+        self._roles: dict[int, tuple[int, object]] = {}
+        self._known: set[tuple[int, bytes]] = set()
+        self._entered: set[tuple[int, int]] = set()
+        self._pooled = 0
+        self._epochs: dict[int, tuple[int, Tables]] = {}
+        self.arrays = _arrays()
+
+    def follow(self, octets: Any, at: int, size: int) -> tuple[int, int]:
+        """Pass the messages that are known here: the offset of the first that is not, and why."""
+        a = self.arrays
+        found = self.code.follow(
+            octets, at, size, a.channels, a.devices, a.classes, a.pool, a.entries, a.steps, a.moves,
+            a.scratch, a.trail, a.places, a.counts,
+        )  # fmt: skip
+        return int(found[0]), int(found[1])
+
+    @property
+    def full(self) -> bool:
+        """Whether there may be no room for one thing more."""
+        most = max(len(self._known), len(self._entered), len(self.steps))
+        return most > _SLOTS // 2 or len(self.states) > STATES - 2 or self._pooled > POOL - 4096
+
+    def stale(self, tables: Tables) -> bool:
+        """Whether the tables have forgotten what they were: their classes have other numbers now."""
+        return self._epochs.setdefault(id(tables), (tables.epoch, tables))[0] != tables.epoch
+
+    def state(self, state: State) -> int:
+        """The number of a state."""
+        return _numbered(state, self._states, self.states)
+
+    def role(self, listener: Listener) -> int:
+        """The number of a listener's classes."""
+        key = id(listener.classes)
+        if key not in self._roles:
+            self._roles[key] = len(self._roles), listener.classes  # kept, so that no other has its identity
+        return self._roles[key][0]
+
+    def step(self, step: Step) -> int:
+        """The number of a step."""
+        known = len(self.steps)
+        number = _numbered(step, self._steps, self.steps)
+        if number == known:
+            a = self.arrays
+            moving, tracing = _row(a.moves[number], step.moves), _row(a.sources[number], step.sources)
+            a.steps[number] = self.state(step.target), moving, tracing
+        return number
+
+    def enter(
+        self, listener: Listener, rest: bytes, number: int, state: State, event: int, step: Step
+    ) -> bool:
+        """Enter a class and a step; false where nothing of it is new."""
+        role, at = self.role(listener), self.state(state)
+        new = False
+        if (at, event) not in self._entered:
+            self._entered.add((at, event))
+            self.code.put_step(self.arrays.entries, at, event, self.step(step))
+            new = True
+        if (role, rest) not in self._known:
+            self._known.add((role, rest))
+            self._enter_class(role, rest, number, whole=listener.whole or rest[0] > ERROR)
+            new = True
+        return new
+
+    def _enter_class(self, role: int, rest: bytes, number: int, *, whole: bool) -> None:
+        size = 0 if whole else 4 + (rest[1] & 0x7F if rest[1] >= 0x80 else 0)
+        head = np.uint64(loops.NONE if whole else int.from_bytes(rest[:size], "little"))
+        tail, at = rest[size:], self._pooled
+        self.arrays.pool[at : at + len(tail)] = np.frombuffer(tail, np.uint8)
+        self._pooled += len(tail)
+        self.code.put_class(self.arrays.classes, self.arrays.pool, head, role, at, len(tail), number)
+
+
+def _numbered(thing: Any, numbers: dict[Any, int], things: list[Any]) -> int:
+    number = numbers.get(thing)
+    if number is None:
+        number = numbers[thing] = len(things)
+        things.append(thing)
+    return number
+
+
+def _row(row: Any, given: tuple[int, ...] | None) -> int:
+    row[: len(given or ())] = given or ()
+    return loops.STAYS if given is None else len(given)
+
+
+def _arrays() -> Arrays:
+    def zeros(kind: str, *shape: int) -> Any:
+        return np.zeros(shape, kind)
+
+    channels, devices = zeros("i8", _CHANNELS, 2), zeros("i8", DEVICES, loops.INVOKES + MOST_MARKS)
+    channels[:, loops.DEVICE] = devices[:, loops.STATE] = -1
+    return Arrays(
+        channels=channels, devices=devices, classes=zeros("i8", _SLOTS, 6), pool=zeros("u1", POOL),
+        entries=zeros("i8", _SLOTS, 2), steps=zeros("i8", _SLOTS, 3), moves=zeros("i1", _SLOTS, MOST_MARKS),
+        sources=zeros("i1", _SLOTS, MOST_MARKS), scratch=zeros("i8", MOST_MARKS), trail=zeros("i8", 1, 3),
+        places=zeros("i8", 1), counts=zeros("i8", 3),
+    )  # fmt: skip
