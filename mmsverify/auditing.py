@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from mmsverify.audit.annotate import annotate
-from mmsverify.audit.kept import PROCESS
+from mmsverify.audit.kept import of_thread
 from mmsverify.audit.replay import Replay
 from mmsverify.audit.spoken import Listener
 from mmsverify.errors import InputError, MmsverifyError, ProfileError
@@ -110,7 +110,7 @@ def _audit(
         manner.model,
         manner.variant,
         exact=manner.exact,
-        kept=None if manner.exact else PROCESS,
+        kept=None if manner.exact else of_thread(),
         kernel=manner.kernel,
     )
     findings = list(_findings(replay, Path(trace.path)))

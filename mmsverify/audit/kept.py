@@ -1,10 +1,11 @@
-"""What a process keeps from one recording to the next: models as they were loaded, and what was learned.
+"""What a process keeps, thread by thread, from one recording to the next: models as they were loaded, and what was learned.
 
 Nothing in it depends on which recordings were audited before, or in which order, but the time that it saves.
 """
 
 from __future__ import annotations
 
+import threading
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
 from typing import Any, TypeVar, cast
@@ -30,5 +31,14 @@ class Kept:
         return cast(T, self._things[key])
 
 
-PROCESS = Kept()
-"""What this process keeps."""
+class _OfThread(threading.local):
+    def __init__(self) -> None:
+        self.kept = Kept()
+
+
+_OF_THREAD = _OfThread()
+
+
+def of_thread() -> Kept:
+    """What this thread keeps: nothing of it can be used by two at once."""
+    return _OF_THREAD.kept

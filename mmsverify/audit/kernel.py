@@ -13,7 +13,7 @@ import numpy as np
 
 from mmsverify.audit import kernel_loops as loops
 from mmsverify.audit.learned import Learned, Listener
-from mmsverify.audit.mirror import DEVICES, Mirror
+from mmsverify.audit.mirror import DEVICES, Arrays, Mirror
 from mmsverify.audit.tables import Step, event
 from mmsverify.audit.trail import ListedTrail, Origin
 from mmsverify.audit.walk import Walk
@@ -31,37 +31,43 @@ class Kernel:
 
     def __init__(self, mirror: Mirror) -> None:
         self._mirror = mirror
+        mirror.arrays.channels[:, loops.DEVICE] = -1
         self._walk = Walk()
         self._devices: list[Learned[Any]] = []
         self._listeners: dict[int, Listener] = {}
+        self._known: object = None
         self._walking = 0
         self._calls = self._passed = 0
 
     def start(self, stretch: Stretch) -> None:
-        """A stretch begins."""
+        """As `Walk.start`."""
+        walked = self._walking > 0
         if self._walking > 0:
             self._walking -= 1
-        elif self._calls > _TRIED and self._passed < _WORTH * self._calls:
+        elif stretch.last > _LATEST or (self._calls > _TRIED and self._passed < _WORTH * self._calls):
             self._walking = _AGAIN
         self._calls = self._passed = 0
+        if stretch.known is not self._known or (self._walking > 0) != walked:
+            self._begin_anew()
+        self._known = stretch.known
+        if not self._walking:
+            arrays = self._mirror.room(stretch.size // rec.MESSAGE_HEAD.size + 1)
+            arrays.counts[:] = 0, stretch.last
+            stretch.places = _Places(arrays)
+            for number, learned in enumerate(self._devices):
+                learned.trail = KernelTrail(self._mirror, number)
+
+    def _begin_anew(self) -> None:
         for learned in self._devices:
             learned.trail = ListedTrail()
         self._devices.clear()
         self.begin()
-        if self._walking or stretch.last > _LATEST:
-            self._walking = max(self._walking, 1)
-            return
-        most = stretch.size // rec.MESSAGE_HEAD.size + 2
-        arrays = self._mirror.arrays
-        arrays.counts[:] = 0, 0, stretch.last
-        self._mirror.arrays = arrays._replace(trail=np.empty((most, 3), "i8"), places=np.empty(most, "i8"))
-        stretch.places = _Places(self._mirror.arrays.places, arrays.counts)
 
     def begin(self) -> None:
         """As `Walk.begin`."""
         self._walk.begin()
+        self._mirror.arrays.channels[list(self._listeners), loops.DEVICE] = -1
         self._listeners.clear()
-        self._mirror.arrays.channels[:, loops.DEVICE] = -1
 
     def route(self, number: int, listener: Listener) -> None:
         """As `Walk.route`."""
@@ -85,10 +91,9 @@ class Kernel:
             return self._walk.follow(stretch, at)
         if self._mirror.full or any(self._mirror.stale(each.tables) for each in self._devices):
             self._anew(stretch)
-        octets = np.frombuffer(stretch.data, np.uint8)
         self._give(stretch)
         while True:
-            at, why = self._mirror.follow(octets, at, stretch.size)
+            at, why = self._mirror.follow(stretch.data, at)
             self._take(stretch)
             if why == loops.DISORDER:
                 raise DisorderError
@@ -116,13 +121,14 @@ class Kernel:
         for own, learned in zip(arrays.devices, self._devices, strict=False):
             own[loops.STATE] = -1 if learned.state is None else self._mirror.state(learned.state)
             own[loops.COUNT] = len(learned.invokes)
+            own[loops.LATEST] = -1
             own[loops.INVOKES : loops.INVOKES + len(learned.invokes)] = learned.invokes
 
     def _take(self, stretch: Stretch) -> None:
         """Where the devices are after the loops."""
         arrays = self._mirror.arrays
         self._calls += 1
-        self._passed = int(arrays.counts[loops.STEPS])
+        self._passed = int(arrays.counts[loops.PASSED])
         stretch.last = int(arrays.counts[loops.LAST])
         for own, learned in zip(arrays.devices, self._devices, strict=False):
             if own[loops.STATE] >= 0:
@@ -132,10 +138,9 @@ class Kernel:
 
     def _teach(self, stretch: Stretch, at: int) -> bool:
         """Enter the step that the tables know for the message at which the loops have stopped."""
-        opcode, length = rec.HEAD.unpack_from(stretch.data, at)
-        end = at + rec.HEAD.size + length
+        opcode, end = stretch.record(at)
         listener = self._listeners.get(stretch.number(at))
-        if opcode != rec.MESSAGE or end > stretch.size or at >= stretch.size or listener is None:
+        if opcode != rec.MESSAGE or end > stretch.size or listener is None:
             return False
         parts, learned = listener.split(stretch.data[at + rec.MESSAGE_HEAD.size : end]), listener.learned
         number = None if parts is None else listener.classes.get(parts[0])
@@ -143,43 +148,40 @@ class Kernel:
             return False
         happens = event(number, learned.relation(parts[1]))
         step = learned.state.steps.get(happens)
-        return step is not None and self._mirror.enter(
-            listener, parts[0], number, learned.state, happens, step
-        )
+        return step is not None and self._mirror.enter(listener, parts[0], learned.state, happens, step)
 
 
 class KernelTrail:
     """The trail of one device, in the arrays."""
 
     def __init__(self, mirror: Mirror, device: int) -> None:
-        self._mirror, self._device = mirror, device
-        self._begin = int(mirror.arrays.counts[loops.STEPS])
-        mirror.arrays.devices[device, loops.PENDING] = 0
+        self._mirror, self._device, self._begin = mirror, device, 0
+        self.clear()
 
     def __bool__(self) -> bool:
         return bool(self._mirror.arrays.devices[self._device, loops.PENDING])
 
     def append(self, step: Step, at: int) -> None:
-        """As `Trail`."""
-        arrays = self._mirror.arrays
-        number = arrays.counts[loops.STEPS]
-        arrays.trail[number] = self._mirror.step(step), at, self._device
-        arrays.counts[loops.STEPS] += 1
+        """As `Trail`; the message is the last one passed."""
+        arrays, number = self._mirror.arrays, self._end - 1
+        assert arrays.places[number] == at
+        self._begin = min(self._begin, number)
+        arrays.trail[number] = self._mirror.step(step) << 8 | self._device
         arrays.devices[self._device, loops.PENDING] += 1
 
-    def last_written(self) -> Iterable[tuple[Step, int]]:
+    def last_written(self, stretch: Stretch) -> Iterable[tuple[Step, int]]:
         """As `Trail`."""
-        steps = self._mirror.steps
+        steps, a = self._mirror.steps, self._mirror.arrays
         last = np.full(len(steps), -1, "i8")
-        self._mirror.code.last_of_each(self._mirror.arrays.trail, self._begin, self._end, self._device, last)
+        self._mirror.code.last_of_each(a.trail, self._begin, self._end, self._device, last)
         found = np.flatnonzero(last >= 0).tolist()
         return [(steps[number], int(last[number])) for number in found if steps[number].wrote]
 
-    def origin(self, place: int) -> Origin:
+    def origin(self, place: int, stretch: Stretch) -> Origin:
         """As `Trail`."""
         a, ends = self._mirror.arrays, (self._begin, self._end)
-        at, place = self._mirror.code.origin(a.trail, a.steps, a.sources, *ends, self._device, place)
-        return (None if at < 0 else int(at)), int(place)
+        passed, place = self._mirror.code.origin(a.trail, a.steps, a.sources, *ends, self._device, place)
+        return (None if passed < 0 else int(passed)), int(place)
 
     def clear(self) -> None:
         """As `Trail`."""
@@ -188,23 +190,22 @@ class KernelTrail:
 
     @property
     def _end(self) -> int:
-        return int(self._mirror.arrays.counts[loops.STEPS])
+        return int(self._mirror.arrays.counts[loops.PASSED])
 
 
 class _Places:
-    """The offsets of the messages of a stretch, in an array."""
+    """The offsets of the messages of a stretch, in the arrays; one that is added was not followed."""
 
-    def __init__(self, places: Any, counts: Any) -> None:
-        self._places, self._counts = places, counts
+    def __init__(self, arrays: Arrays) -> None:
+        self._arrays = arrays
 
     def append(self, at: int, /) -> None:
-        self._places[self._counts[loops.PLACES]] = at
-        self._counts[loops.PLACES] += 1
+        number = len(self)
+        self._arrays.places[number], self._arrays.trail[number] = at, -1
+        self._arrays.counts[loops.PASSED] += 1
 
     def __len__(self) -> int:
-        return int(self._counts[loops.PLACES])
+        return int(self._arrays.counts[loops.PASSED])
 
     def __getitem__(self, number: int, /) -> int:
-        if not -len(self) <= number < len(self):
-            raise IndexError(number)
-        return int(self._places[number if number >= 0 else number + len(self)])
+        return int(self._arrays.places[range(len(self))[number]])

@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Generic, Protocol, TypeVar
 from mmsverify.audit.classes import Split
 from mmsverify.audit.marks import Index, InvokeId
 from mmsverify.audit.snapshots import Mark, Own
-from mmsverify.audit.tables import NEW, PRESENT, Classes, State, Tables, event
+from mmsverify.audit.tables import NEW, PRESENT, Classes, State, Step, Tables, event
 from mmsverify.audit.telling import History
 from mmsverify.audit.trail import ListedTrail, Trail
 from mmsverify.formats.stretch import Stretch
@@ -80,6 +80,7 @@ class Learned(Generic[P]):
         self._own: Own = {}
         self._grown = tables.root
         self._marks: list[Mark] = []
+        self._written: dict[Step, int] = {}  # what the history does not know yet
         self._missed = self._began_trial = self._rests_until = 0
         if not exact:
             self.state = tables.initial.get(kind)
@@ -144,6 +145,8 @@ class Learned(Generic[P]):
     def awake(self, stretch: Stretch) -> P:
         """The part itself, in the state that the tables have led to."""
         self.catch_up(stretch)
+        self._history.write_down((step.wrote, index) for step, index in self._written.items())
+        self._written.clear()
         if self._part is None:
             assert self.state is not None
             if not self._own:  # of the part that is made only what no state changes is used
@@ -229,7 +232,8 @@ class Learned(Generic[P]):
         """Write down what the steps of the trail have done, before their stretch is gone."""
         if not self.trail:
             return
-        self._history.write_down((step.wrote, stretch.index_at(at)) for step, at in self.trail.last_written())
+        for step, passed in self.trail.last_written(stretch):
+            self._written[step] = stretch.index + passed
         assert self.state is not None
         invokes = iter(self.invokes)
         self._marks = [
@@ -241,10 +245,11 @@ class Learned(Generic[P]):
 
     def _traced(self, place: int, kind: type, stretch: Stretch) -> Mark:
         """A mark of the present state, from the message that it comes from."""
-        at, place = self.trail.origin(place)
-        if at is None:
+        passed, place = self.trail.origin(place, stretch)
+        if passed is None:
             return self._marks[place]
-        return Index(stretch.index_at(at)) if kind is Index else _marked(stretch.message(at))
+        index = stretch.index + passed
+        return Index(index) if kind is Index else _marked(stretch.message(stretch.places[passed]))
 
 
 @dataclass(slots=True, eq=False)

@@ -151,7 +151,7 @@ class Lookahead:
 def _passed_by(stretch: Stretch, at: int, quiet: Set[int]) -> int:
     """Pass the messages that tell nothing: the offset of the first that may tell something."""
     data, size, last, passed = stretch.data, stretch.size, stretch.last, stretch.places.append
-    while at < size:
+    while at + _HEAD.size <= size:
         opcode, length, number, _, time, _, kind = _HEAD.unpack_from(data, at)
         end = at + rec.HEAD.size + length
         if number not in quiet or kind in _INITIATES or opcode != rec.MESSAGE or end > size or time < last:

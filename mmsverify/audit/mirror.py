@@ -36,8 +36,8 @@ class Arrays(NamedTuple):
     """What the loops read and write, by the columns that are named there.
 
     ``channels`` by number; ``devices``, ``steps``, their ``moves`` and ``sources`` by number here; ``classes``
-    (their octets in the ``pool``) and ``entries`` are hash tables; ``trail`` are step, offset and device of
-    each message followed, ``places`` the offsets of all.
+    (their octets in the ``pool``) and ``entries`` are hash tables; ``places`` are the offsets of the messages
+    passed, the ``trail`` step and device of each (-1: none), ``counts`` how many they are.
     """
 
     channels: Any
@@ -79,18 +79,21 @@ class Mirror:
         self._states: dict[State, int] = {}
         self._steps: dict[Step, int] = {}
         self._roles: dict[int, tuple[int, object]] = {}
-        self._known: set[tuple[int, bytes]] = set()
+        self._known: dict[tuple[int, bytes], int] = {}
         self._entered: set[tuple[int, int]] = set()
         self._pooled = 0
         self._epochs: dict[int, tuple[int, Tables]] = {}
         self.arrays = _arrays()
+        self._where = {name: array.ctypes.data for name, array in self.arrays._asdict().items()}
 
-    def follow(self, octets: Any, at: int, size: int) -> tuple[int, int]:
+    def follow(self, data: bytes, at: int) -> tuple[int, int]:
         """Pass the messages that are known here: the offset of the first that is not, and why."""
-        a = self.arrays
+        a, where = self.arrays, self._where
+        octets = np.frombuffer(data, np.uint8)
         found = self.code.follow(
-            octets, at, size, a.channels, a.devices, a.classes, a.pool, a.entries, a.steps, a.moves,
-            a.scratch, a.trail, a.places, a.counts,
+            octets.ctypes.data, at, len(data), where["channels"], where["devices"], where["classes"],
+            where["entries"], _SLOTS - 1, where["steps"], where["moves"], where["scratch"], a.trail, a.places,
+            a.counts,
         )  # fmt: skip
         return int(found[0]), int(found[1])
 
@@ -99,6 +102,12 @@ class Mirror:
         """Whether there may be no room for one thing more."""
         most = max(len(self._known), len(self._entered), len(self.steps))
         return most > _SLOTS // 2 or len(self.states) > STATES - 2 or self._pooled > POOL - 4096
+
+    def room(self, count: int) -> Arrays:
+        """The arrays, with room for so many messages."""
+        if len(self.arrays.places) < count:
+            self.arrays = self.arrays._replace(trail=np.zeros(count, "i4"), places=np.zeros(count, "i4"))
+        return self.arrays
 
     def stale(self, tables: Tables) -> bool:
         """Whether the tables have forgotten what they were: their classes have other numbers now."""
@@ -122,32 +131,36 @@ class Mirror:
         if number == known:
             a = self.arrays
             moving, tracing = _row(a.moves[number], step.moves), _row(a.sources[number], step.sources)
-            a.steps[number] = self.state(step.target), moving, tracing
+            a.steps[number] = self.state(step.target), moving, tracing, -1, 0, 0, -1, 0
         return number
 
-    def enter(
-        self, listener: Listener, rest: bytes, number: int, state: State, event: int, step: Step
-    ) -> bool:
-        """Enter a class and a step; false where nothing of it is new."""
-        role, at = self.role(listener), self.state(state)
-        new = False
-        if (at, event) not in self._entered:
-            self._entered.add((at, event))
-            self.code.put_step(self.arrays.entries, at, event, self.step(step))
-            new = True
-        if (role, rest) not in self._known:
-            self._known.add((role, rest))
-            self._enter_class(role, rest, number, whole=listener.whole or rest[0] > ERROR)
-            new = True
-        return new
+    def enter(self, listener: Listener, rest: bytes, state: State, event: int, step: Step) -> bool:
+        """Enter a step and the class of its event; false where it is not new."""
+        at = self.state(state)
+        if (at, event) in self._entered:
+            return False
+        self._entered.add((at, event))
+        number = self.step(step)
+        self.code.put_step(self._where["entries"], _SLOTS - 1, at, event, number)
+        slot = self._class(self.role(listener), rest, event >> 4, whole=listener.whole or rest[0] > ERROR)
+        self.arrays.steps[number, loops.FROM : loops.CLASS + 1] = at, event, slot
+        return True
 
-    def _enter_class(self, role: int, rest: bytes, number: int, *, whole: bool) -> None:
-        size = 0 if whole else 4 + (rest[1] & 0x7F if rest[1] >= 0x80 else 0)
-        head = np.uint64(loops.NONE if whole else int.from_bytes(rest[:size], "little"))
-        tail, at = rest[size:], self._pooled
-        self.arrays.pool[at : at + len(tail)] = np.frombuffer(tail, np.uint8)
-        self._pooled += len(tail)
-        self.code.put_class(self.arrays.classes, self.arrays.pool, head, role, at, len(tail), number)
+    def _class(self, role: int, rest: bytes, number: int, *, whole: bool) -> int:
+        """The slot of a class."""
+        key = role, rest
+        if key not in self._known:
+            size = 0 if whole else 4 + (rest[1] & 0x7F if rest[1] >= 0x80 else 0)
+            head = np.uint64(loops.NONE if whole else int.from_bytes(rest[:size], "little"))
+            tail, at = rest[size:], self._pooled
+            self.arrays.pool[at : at + len(tail)] = np.frombuffer(tail, np.uint8)
+            self._pooled += len(tail)
+            where = self._where["pool"] + at
+            slot = self.code.put_class(
+                self._where["classes"], _SLOTS - 1, head, role, where, len(tail), number
+            )
+            self._known[key] = int(slot)
+        return self._known[key]
 
 
 def _numbered(thing: Any, numbers: dict[Any, int], things: list[Any]) -> int:
@@ -167,11 +180,11 @@ def _arrays() -> Arrays:
     def zeros(kind: str, *shape: int) -> Any:
         return np.zeros(shape, kind)
 
-    channels, devices = zeros("i8", _CHANNELS, 2), zeros("i8", DEVICES, loops.INVOKES + MOST_MARKS)
+    channels, devices = zeros("i8", _CHANNELS, loops.CHANNEL_ROW), zeros("i8", DEVICES, loops.DEVICE_ROW)
     channels[:, loops.DEVICE] = devices[:, loops.STATE] = -1
     return Arrays(
-        channels=channels, devices=devices, classes=zeros("i8", _SLOTS, 6), pool=zeros("u1", POOL),
-        entries=zeros("i8", _SLOTS, 2), steps=zeros("i8", _SLOTS, 3), moves=zeros("i1", _SLOTS, MOST_MARKS),
-        sources=zeros("i1", _SLOTS, MOST_MARKS), scratch=zeros("i8", MOST_MARKS), trail=zeros("i8", 1, 3),
-        places=zeros("i8", 1), counts=zeros("i8", 3),
+        channels=channels, devices=devices, classes=zeros("i8", _SLOTS, loops.CLASS_ROW), pool=zeros("u1", POOL),
+        entries=zeros("i8", _SLOTS, loops.ENTRY_ROW), steps=zeros("i8", _SLOTS, loops.STEP_ROW), moves=zeros("i1", _SLOTS, MOST_MARKS),
+        sources=zeros("i1", _SLOTS, MOST_MARKS), scratch=zeros("i8", MOST_MARKS), trail=zeros("i4", 1),
+        places=zeros("i4", 1), counts=zeros("i8", 2),
     )  # fmt: skip

@@ -6,22 +6,23 @@ from collections.abc import Iterable
 from typing import Protocol
 
 from mmsverify.audit.tables import PRESENT, Step
+from mmsverify.formats.stretch import Stretch
 
 Origin = tuple[int | None, int]
-"""Where a mark comes from: the offset of a message, or ``None`` and its number in the state before."""
+"""Where a mark comes from: which message passed in the stretch, or ``None`` and its number before the trail."""
 
 
 class Trail(Protocol):
-    """Steps, each with the offset of its message in the stretch."""
+    """Steps, each with its message in a stretch."""
 
     def __bool__(self) -> bool: ...
 
     def append(self, step: Step, at: int) -> None: ...
 
-    def last_written(self) -> Iterable[tuple[Step, int]]:
-        """The steps that wrote something, each once, with the last of its messages."""
+    def last_written(self, stretch: Stretch) -> Iterable[tuple[Step, int]]:
+        """The steps that wrote something, each once, with the number of the last of its messages passed."""
 
-    def origin(self, place: int) -> Origin:
+    def origin(self, place: int, stretch: Stretch) -> Origin:
         """Where a mark of the state after the last step comes from."""
 
     def clear(self) -> None: ...
@@ -42,18 +43,18 @@ class ListedTrail:
         self.steps.append(step)
         self.places.append(at)
 
-    def last_written(self) -> Iterable[tuple[Step, int]]:
+    def last_written(self, stretch: Stretch) -> Iterable[tuple[Step, int]]:
         """As `Trail`."""
         last = dict(zip(self.steps, self.places, strict=True))
-        return [(step, at) for step, at in last.items() if step.wrote]
+        return [(step, stretch.passed(at)) for step, at in last.items() if step.wrote]
 
-    def origin(self, place: int) -> Origin:
+    def origin(self, place: int, stretch: Stretch) -> Origin:
         """As `Trail`."""
         for step, at in zip(reversed(self.steps), reversed(self.places), strict=True):
             if step.sources is not None:
                 place = step.sources[place]
                 if place == PRESENT:
-                    return at, PRESENT
+                    return stretch.passed(at), PRESENT
         return None, place
 
     def clear(self) -> None:

@@ -30,12 +30,15 @@ class Walk:
     """Follows the messages of stretches by the tables."""
 
     def __init__(self) -> None:
+        self._known: object = None
         self._routes: dict[int, tuple[Listener, dict[int, Classes]]] = {}
         self._of: dict[int, dict[int, Classes]] = {}
 
     def start(self, stretch: Stretch) -> None:
-        """A stretch begins."""
-        self.begin()
+        """A stretch begins; where the channels are those of the one before, whose they are is still known."""
+        if stretch.known is not self._known:
+            self.begin()
+        self._known = stretch.known
 
     def begin(self) -> None:
         """Forget whose the channels are: their numbers may mean others from here on."""
@@ -73,7 +76,7 @@ def _follow(
     assert isinstance(trail, ListedTrail)
     data, size, last, head = stretch.data, stretch.size, stretch.last, _HEAD.unpack_from
     step_taken, placed, passed = trail.steps.append, trail.places.append, stretch.places.append
-    while at < size:
+    while at + _HEAD.size <= size:
         opcode, length, number, time, kind, short, width, first = head(data, at)
         end = at + rec.HEAD.size + length
         classes = routes.get(number)

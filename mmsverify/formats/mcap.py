@@ -19,7 +19,7 @@ from mmsverify.errors import InputError
 from mmsverify.formats.mcap_records import Definitions, Message
 from mmsverify.formats.mcap_survey import Block, Survey, survey
 from mmsverify.formats.mcap_write import TraceWriter
-from mmsverify.formats.stretch import PAD, DisorderError, Stretch, joined
+from mmsverify.formats.stretch import DisorderError, Stretch, joined
 from mmsverify.formats.trace import PROFILE_RECORD, TraceMessage
 
 __all__ = ["McapTrace", "TraceWriter", "read_trace"]
@@ -89,7 +89,7 @@ class McapTrace:
             for block in blocks:
                 data = self._unpacked(file, block)
                 wrong = partial(self._wrong, block)
-                stretch = Stretch(data + PAD, len(data), index, last, known, wrong, block.cut)
+                stretch = Stretch(data, index, last, known, wrong, block.cut)
                 yield stretch
                 index, last = index + len(stretch.places), stretch.last
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 import io
 import struct
 import zlib
+from contextlib import suppress
 from dataclasses import dataclass
 
 import lz4.frame
@@ -175,6 +176,9 @@ def _inflate(raw: bytes, compression: str, limit: int) -> bytes:
 
 
 def _inflate_zstd(raw: bytes, limit: int) -> bytes:
+    with suppress(zstandard.ZstdError):  # the other way tells what is wrong, and how much there is
+        if 0 < zstandard.frame_content_size(raw) < limit:
+            return zstandard.ZstdDecompressor().decompress(raw, allow_extra_data=False)
     reader = zstandard.ZstdDecompressor().stream_reader(io.BytesIO(raw), read_across_frames=True)
     pieces: list[bytes] = []
     while limit > 0 and (piece := reader.read(min(limit, _PIECE))):

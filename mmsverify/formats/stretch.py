@@ -15,9 +15,6 @@ from mmsverify.errors import InputError
 from mmsverify.formats import mcap_records as rec
 from mmsverify.formats.trace import Channel, TraceMessage
 
-PAD = bytes(64)
-"""Stands behind the records, so that what is at the end of the last one can be looked at like any other."""
-
 
 class DisorderError(Exception):
     """A message is older than one before it: the order of the file is not that of the events."""
@@ -33,7 +30,7 @@ class Places(Protocol):
 
 @dataclass(slots=True, eq=False)
 class Stretch:
-    """Records of a recording, ``data`` up to ``size``; ``index`` is that of the first message.
+    """Records of a recording; ``index`` is that of the first message.
 
     ``places`` are the offsets of the messages passed so far; whoever passes one adds it. ``last`` is the log
     time of the last one passed, or of the last one before the stretch. ``cut``: the last record need not be
@@ -41,7 +38,6 @@ class Stretch:
     """
 
     data: bytes
-    size: int
     index: int
     last: int
     known: rec.Definitions
@@ -49,18 +45,27 @@ class Stretch:
     cut: bool = False
     places: Places = field(default_factory=list[int])
 
+    @property
+    def size(self) -> int:
+        """How many octets there are."""
+        return len(self.data)
+
     def message(self, at: int) -> TraceMessage:
         """The message at that offset."""
         _, length, number, _, time, _ = rec.MESSAGE_HEAD.unpack_from(self.data, at)
         data = self.data[at + rec.MESSAGE_HEAD.size : at + rec.HEAD.size + length]
-        return TraceMessage(self.index_at(at), time, self.channel(number), data)
+        return TraceMessage(self.index + self.passed(at), time, self.channel(number), data)
 
-    def index_at(self, at: int) -> int:
-        """The index of the message at that offset, which has been passed or is the next."""
-        return self.index + bisect_left(self.places, at)
+    def passed(self, at: int) -> int:
+        """How many messages were passed before the one at that offset, which was passed or is the next."""
+        if not self.places or self.places[-1] < at:
+            return len(self.places)
+        return bisect_left(self.places, at)
 
     def number(self, at: int) -> int:
-        """The number of the channel of the message at that offset."""
+        """The number of the channel of the message at that offset, -1 where none fits there."""
+        if at + rec.MESSAGE_HEAD.size > self.size:
+            return -1
         found: int = rec.MESSAGE_HEAD.unpack_from(self.data, at)[2]
         return found
 
@@ -68,15 +73,21 @@ class Stretch:
         """The channel of that number; one that nobody has defined has no name."""
         return rec.channel_of(number, self.known)
 
+    def record(self, at: int) -> tuple[int, int]:
+        """The opcode of the record at that offset, and where the next one begins, be it beyond the end."""
+        if at + rec.HEAD.size > self.size:
+            return 0, self.size + 1
+        opcode, length = rec.HEAD.unpack_from(self.data, at)
+        return opcode, at + rec.HEAD.size + length
+
     def next(self, at: int) -> tuple[int, TraceMessage | None]:
         """Pass one record of any kind: the offset behind it, and its message if it is one.
 
         Raises ``InputError`` where the octets are no record, ``DisorderError`` where the message is too old.
         """
         try:
-            opcode, length = rec.HEAD.unpack_from(self.data, at)
-            following = at + rec.HEAD.size + length
-            if following > self.size or at + rec.HEAD.size > self.size:
+            opcode, following = self.record(at)
+            if following > self.size:
                 if self.cut:
                     return self.size, None
                 raise InputError("the last record leads out of its chunk")
@@ -84,8 +95,8 @@ class Stretch:
                 self.known.learn(opcode, self.data[at + rec.HEAD.size : following])
             if opcode != rec.MESSAGE:
                 return following, None
-            if length < rec.MESSAGE_FIXED:
-                raise InputError(f"a message record of {length} octets")
+            if following - at < rec.MESSAGE_HEAD.size:
+                raise InputError(f"a message record of {following - at - rec.HEAD.size} octets")
             if len(self.places) >= rec.MOST_MESSAGES:
                 raise rec.too_many()
         except InputError as error:
@@ -114,7 +125,7 @@ def joined(messages: Sequence[rec.Message], index: int, last: int) -> Stretch:
         records += (head, data)
     octets = b"".join(records)
     known = rec.Definitions({}, dict(enumerate(channels)))
-    return Stretch(octets + PAD, len(octets), index, last, known, _no_fault)
+    return Stretch(octets, index, last, known, _no_fault)
 
 
 def _no_fault(error: InputError) -> InputError:
