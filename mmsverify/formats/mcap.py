@@ -9,15 +9,18 @@ from __future__ import annotations
 import os
 from bisect import bisect_left
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import BinaryIO
 
 from mmsverify.errors import InputError
+from mmsverify.formats.locations import Url, located
 from mmsverify.formats.mcap_records import Definitions, Message
 from mmsverify.formats.mcap_survey import Block, Survey, survey
 from mmsverify.formats.mcap_write import TraceWriter
+from mmsverify.formats.passing import Passed, told
+from mmsverify.formats.remote import Store
 from mmsverify.formats.trace import PROFILE_RECORD, TraceMessage
 
 __all__ = ["McapTrace", "TraceWriter", "read_trace"]
@@ -43,6 +46,8 @@ class McapTrace:
     truncated: bool
     remark: str
     _survey: Survey = field(repr=False)
+    _store: Store | None = field(default=None, repr=False, compare=False)  # of a remote file
+    _passed: Passed | None = field(default=None, repr=False, compare=False)
 
     @property
     def profile(self) -> Mapping[str, str]:
@@ -56,33 +61,42 @@ class McapTrace:
                 yield TraceMessage(index, time, channel, data)
                 index += 1
 
+    def watched(self, passed: Passed | None) -> McapTrace:
+        """The same recording, which tells how far it is read whenever it is."""
+        return replace(self, _passed=passed)
+
     def batches(self) -> Iterator[list[Message]]:
         """The same messages as lists of (log time, rank, channel, data), for readers in a hurry."""
-        with _open(self.path) as file:
+        with _open(self.path, self._store) as file:
             try:
-                yield from _in_order(file, self._survey)
+                batches = _in_order(file, self._survey)
+                yield from batches if self._passed is None else told(batches, file.tell, self._passed)
             except InputError as error:
                 raise InputError(error.cause, place=self.path, cure=error.cure) from None
 
 
-def read_trace(path: str | os.PathLike[str]) -> McapTrace:
+def read_trace(path: str | os.PathLike[str] | Url) -> McapTrace:
     """Survey an MCAP file: metadata and truncation are known at once, messages come by iterating.
 
-    Raises ``InputError`` for what cannot be read at all: not MCAP, empty, a folder, no permission, lying
-    lengths.
+    A string such as ``s3://bucket/x.mcap`` is a URL, which fsspec opens (extra ``remote``). Raises
+    ``InputError`` for what cannot be read at all: not MCAP, empty, a folder, no permission, lying lengths.
     """
-    place = os.fspath(path)
-    with _open(place) as file:
+    location = located(path)
+    store = Store(location) if isinstance(location, Url) else None
+    place = str(location) if isinstance(path, Url) or store else os.fspath(path)
+    with _open(place, store) as file:
         try:
             found = survey(file)
         except InputError as error:
             raise InputError(error.cause, place=place, cure=error.cure) from None
         except OSError as error:
             raise InputError(error.strerror or str(error), place=place) from None
-    return McapTrace(place, found.metadata, bool(found.remark), found.remark, found)
+    return McapTrace(place, found.metadata, bool(found.remark), found.remark, found, store)
 
 
-def _open(place: str) -> BinaryIO:
+def _open(place: str, store: Store | None) -> BinaryIO:
+    if store is not None:
+        return store.open()
     try:
         if Path(place).is_dir():
             raise InputError(
