@@ -16,6 +16,7 @@ from mmsverify.audit.lookahead import Lookahead, link
 from mmsverify.audit.modbus import Access, Plan, Server
 from mmsverify.audit.telling import Place
 from mmsverify.audit.vr import Controller, Numbering, Scans
+from mmsverify.audit.watching import AUDITING, LOOKING, Stages, stage
 from mmsverify.concrete.automaton import Automaton, TooManyStatesError
 from mmsverify.concrete.belief import Belief
 from mmsverify.concrete.belief.coverage import Coverage
@@ -42,13 +43,14 @@ class Replay:
     """One recording under a profile.
 
     ``exact``: every message is judged by itself, and nothing is learned from those before; the findings are
-    the same. ``messages``, ``events`` and ``skipped`` are counts, true once the run is over; ``coverage`` is
-    what the events of each device have exercised.
+    the same. ``passed`` is told how far it is. ``messages``, ``events`` and ``skipped`` are counts, true once
+    the run is over; ``coverage`` is what the events of each device have exercised.
     """
 
     def __init__(
-        self, trace: McapTrace, tables: Tables, model: str | None, variant: str, *, exact: bool = False
-    ) -> None:
+        self, trace: McapTrace, tables: Tables, model: str | None, variant: str, *, exact: bool = False,
+        passed: Stages | None = None,
+    ) -> None:  # fmt: skip
         self.trace = trace
         self.profile = tables.get(ROBOT, {})
         self._exact = exact
@@ -59,7 +61,8 @@ class Replay:
         self._controllers: dict[str, Controller] = {}
         self._learners: dict[Controller, Learned[Controller]] = {}
         self._servers: dict[str, Server] = {}
-        self._ahead = Lookahead(trace)
+        self._ahead = Lookahead(trace.watched(stage(LOOKING, passed)))
+        self._judged = trace.watched(stage(AUDITING, passed))
 
     def run(self) -> Iterator[Finding]:
         """The findings, in event order."""
@@ -67,7 +70,7 @@ class Replay:
         channels = []  # kept, so that no two have the same identity
         index = -1
         try:
-            for batch in self.trace.batches():
+            for batch in self._judged.batches():
                 for time, _, channel, data in batch:
                     index += 1
                     judge = judges.get(id(channel))
