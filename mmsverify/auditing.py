@@ -15,7 +15,7 @@ from typing import Any, cast
 from mmsverify.audit.annotate import annotate
 from mmsverify.audit.replay import Replay
 from mmsverify.audit.spoken import Listener
-from mmsverify.audit.watching import Stages, Watcher
+from mmsverify.audit.watching import FETCHING, Stages, Watcher, stage
 from mmsverify.errors import InputError, MmsverifyError, ProfileError
 from mmsverify.events import MmsEvent
 from mmsverify.formats.locations import Location, Url, located
@@ -93,7 +93,7 @@ def audit_trace(
 ) -> tuple[AuditedInput | None, list[Finding]]:
     """Replay one trace; of one that cannot be read there is a finding that says so, and nothing else."""
     try:
-        trace = read_trace(path)
+        trace = read_trace(path, fetched=stage(FETCHING, passed))
         tables = for_recording(manner.profile, trace.profile, str(path))
         return _audit(trace, tables, manner, passed)
     except (InputError, ProfileError) as error:

@@ -9,8 +9,8 @@ from typing import Protocol
 from mmsverify.formats.locations import Location
 from mmsverify.formats.passing import Passed
 
-LOOKING, AUDITING = "looking over", "auditing"
-"""The two stages of a recording: it is looked over as a whole, then judged message by message."""
+FETCHING, LOOKING, AUDITING = "fetching", "looking over", "auditing"
+"""The stages of a recording: if it is remote, it is fetched; it is looked over as a whole, then judged."""
 
 Stages = Callable[[str, int, int], None]
 """Takes the stage, the octets of the file that are passed in it, and the messages so far in it."""

@@ -11,6 +11,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from urllib.parse import unquote
 
+from mmsverify.errors import InputError
+
 # Two letters at least, so that a drive of Windows is none.
 _SCHEME = re.compile(r"([A-Za-z][A-Za-z0-9+.-]+)://")
 _USER = re.compile(r"(?P<scheme>[A-Za-z][A-Za-z0-9+.-]+)://(?P<user>[^/?#\s]*)@")
@@ -25,11 +27,12 @@ class Url:
     """A place that fsspec opens: ``s3://bucket/x.mcap``, ``https://host/x.mcap``.
 
     ``address`` is the URL as given, with its secrets; ``str()`` gives it without. ``size`` in octets, where a
-    listing told it.
+    listing told it; ``trouble`` is why there is no listing, where that was asked for.
     """
 
     address: str
     size: int | None = field(default=None, compare=False)
+    trouble: InputError | None = field(default=None, compare=False)
 
     def __str__(self) -> str:
         return without_secrets(self.address)

@@ -75,14 +75,15 @@ class McapTrace:
                 raise InputError(error.cause, place=self.path, cure=error.cure) from None
 
 
-def read_trace(path: str | os.PathLike[str] | Url) -> McapTrace:
+def read_trace(path: str | os.PathLike[str] | Url, *, fetched: Passed | None = None) -> McapTrace:
     """Survey an MCAP file: metadata and truncation are known at once, messages come by iterating.
 
-    A string such as ``s3://bucket/x.mcap`` is a URL, which fsspec opens (extra ``remote``). Raises
-    ``InputError`` for what cannot be read at all: not MCAP, empty, a folder, no permission, lying lengths.
+    A string such as ``s3://bucket/x.mcap`` is a URL, which fsspec opens (extra ``remote``); ``fetched`` is
+    told the octets of it that have come, now and later. Raises ``InputError`` for what cannot be read at all:
+    not MCAP, empty, a folder, no permission, lying lengths.
     """
     location = located(path)
-    store = Store(location) if isinstance(location, Url) else None
+    store = Store(location, fetched) if isinstance(location, Url) else None
     place = str(location) if isinstance(path, Url) or store else os.fspath(path)
     with _open(place, store) as file:
         try:

@@ -8,15 +8,18 @@ most and kept in a temporary file that has no name.
 from __future__ import annotations
 
 import io
+import re
 import threading
 import time
 import weakref
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import IO, TYPE_CHECKING, Any, BinaryIO
 
 from mmsverify.errors import InputError
 from mmsverify.formats.locations import WEB, Url, secrets, without_secrets
+from mmsverify.formats.passing import Passed
 
 if TYPE_CHECKING:
     from _typeshed import WriteableBuffer
@@ -25,10 +28,11 @@ BLOCK = 1 << 20
 """Octets that are fetched together where a file is read here and there."""
 MOST_BLOCKS = 16
 """So many blocks in one request at most, where it is read on and on."""
+_EMPTY = "a folder without recordings"
 _BUFFER = 1 << 16
 _PATIENCE = 60  # seconds without any octet from a web server; a download as a whole may take hours
 _PAUSES = (0.5, 2)  # seconds before the second and the third attempt
-_DEPTH = 6  # of folders of a web server: its pages may link in circles
+_DEPTH = 12  # of folders of a web server: its pages may link in circles
 _DRIVERS = {
     "s3": "s3fs", "s3a": "s3fs", "gs": "gcsfs", "gcs": "gcsfs", "http": "aiohttp", "https": "aiohttp",
     "abfs": "adlfs", "abfss": "adlfs", "az": "adlfs", "sftp": "paramiko", "ssh": "paramiko",
@@ -39,11 +43,13 @@ class Store:
     """One remote file, and what was read of it so far.
 
     Errors are ``InputError`` with the URL as place. A file that could not be read on stays so: whoever reads
-    it again must not see more than who read it before. Whoever unpickles one begins with nothing.
+    it again must not see more than who read it before. Whoever unpickles one begins with nothing. ``fetched``
+    is told the octets so far after each request.
     """
 
-    def __init__(self, url: Url) -> None:
+    def __init__(self, url: Url, fetched: Passed | None = None) -> None:
         self._url = url
+        self._fetched, self._octets = fetched, 0
         self._lock = threading.Lock()
         self._source: Any = None
         self._kept: IO[bytes] | None = None
@@ -97,6 +103,8 @@ class Store:
     def _begin(self) -> None:
         from tempfile import TemporaryFile
 
+        if self._url.trouble is not None:
+            raise self._url.trouble
         system, path = _system(self._url)
         self._source = system.open(path, "rb", cache_type="none")
         kept = TemporaryFile(prefix="mmsverify-")  # noqa: SIM115 (closed when the store goes)
@@ -126,7 +134,7 @@ class Store:
             raise InputError(f"breaks off at octet {begin + len(data)} of {self._size}")
         if len(data) > stop - begin:
             raise InputError(f"octet {begin}: more than was asked for")
-        _keep(self._kept, begin, data)
+        self._keep(self._kept, begin, data)
         self._have.update(range(block, end))
 
     def _read(self, begin: int, count: int) -> bytes:
@@ -145,12 +153,18 @@ class Store:
         data: bytes = self._source.read(count)
         return data
 
+    def _keep(self, kept: IO[bytes], position: int, data: bytes) -> None:
+        _write(kept, position, data)
+        self._octets += len(data)
+        if self._fetched is not None:
+            self._fetched(self._octets, 0)
+
     def _take_all(self, stream: Any, kept: IO[bytes]) -> None:
         """Read a file from its begin to its end that cannot be read otherwise."""
-        position = 0
+        position = self._octets = 0
         with stream:
             while data := stream.read(BLOCK):
-                _keep(kept, position, data)
+                self._keep(kept, position, data)
                 position += len(data)
         if position < self._size:
             raise InputError(f"breaks off at octet {position} of {self._size}")
@@ -188,17 +202,20 @@ def listed(url: Url, suffixes: tuple[str, ...]) -> list[Url]:
     """The files that a URL means, in alphabetical order: itself, those of a folder or of a pattern.
 
     Of a folder, those with one of ``suffixes``; a folder of a web server ends with ``/``. A URL that leads to
-    nothing stays as it is, and so does one that cannot be listed: whoever opens it says what is wrong.
+    nothing stays as it is, and so does one that cannot be listed: whoever opens it is told what is wrong.
     """
-    patterned = any(mark in url.path for mark in ("*[" if url.scheme in WEB else "*?["))
+    patterned = _mark(url) is not None
     if not patterned and (url.suffix.lower() in suffixes or not _may_be_folder(url)):
         return [url]
     try:
         with _told(url):
             found = list(_matches(url) if patterned else _below(url))
-    except InputError:
-        return [url]
+    except InputError as error:
+        return [replace(url, trouble=error)]
     files = [each for each in found if each.suffix.lower() in suffixes]
+    itself = {each.address.rstrip("/") for each in found} == {url.address.rstrip("/")}
+    if found and not files and not itself:
+        return [replace(url, trouble=InputError(_EMPTY))]
     return sorted(files, key=lambda each: each.address) or [url]
 
 
@@ -217,11 +234,18 @@ def _may_be_folder(url: Url) -> bool:
     return url.scheme not in WEB or url.address.endswith("/")
 
 
+def _mark(url: Url) -> int | None:
+    """Where a pattern begins; on the web ``?`` begins a query, and hosts may have brackets."""
+    web = url.scheme in WEB
+    found = re.search(r"://[^/]*/[^?#]*?([*[])" if web else r"://.*?([*?[])", url.address)
+    return found.start(1) if found else None
+
+
 def _matches(url: Url) -> Iterator[Url]:
     system, path = _system(url)
-    begin = min(url.address.find(mark) for mark in "*?[" if mark in url.address.partition("://")[2])
+    mark = _mark(url) or 0
     for name, about in system.glob(path, detail=True).items():
-        child = _child(url.address[: url.address.rindex("/", 0, begin) + 1], name, about, system)
+        child = _child(url.address[: url.address.rindex("/", 0, mark) + 1], name, about, system)
         if about.get("type") == "directory":
             yield from _below(Url(child.address.rstrip("/") + "/"))
         else:
@@ -249,8 +273,9 @@ def _system(url: Url) -> tuple[Any, str]:
     except ImportError:
         raise InputError("a URL needs fsspec", cure="pip install 'mmsverify[remote]'") from None
     try:
-        options = _web_options() if url.scheme in WEB else {}
-        found: tuple[Any, str] = fsspec.core.url_to_fs(url.address, **options)
+        if url.scheme in WEB:  # where "::" stands in an address and begins no second URL
+            return fsspec.filesystem(url.scheme, **_web_options()), url.address
+        found: tuple[Any, str] = fsspec.core.url_to_fs(url.address)
     except ImportError as error:
         driver = _DRIVERS.get(url.scheme)
         cause = f"{url.scheme}:// needs {driver}" if driver else _words(error, url)
@@ -280,7 +305,7 @@ def _measured(source: Any) -> int | None:
         return None
 
 
-def _keep(kept: IO[bytes], position: int, data: bytes) -> None:
+def _write(kept: IO[bytes], position: int, data: bytes) -> None:
     try:
         kept.seek(position)
         kept.write(data)
@@ -304,7 +329,8 @@ def _told(url: Url) -> Iterator[None]:
 
 def _cause(error: BaseException, url: Url) -> str:
     """One line; fsspec says "not found" of whatever a web server answers, the reason stands behind."""
-    reason = error.__cause__ or error
+    reason = error.__cause__ if isinstance(error, FileNotFoundError) else None
+    reason = reason or error
     status = getattr(reason, "status", None)
     if isinstance(status, int) and status:
         said = getattr(reason, "message", "")
@@ -317,7 +343,7 @@ def _cause(error: BaseException, url: Url) -> str:
 
 _CAUSES: dict[type[BaseException], str] = {
     FileNotFoundError: "No such file or directory",
-    IsADirectoryError: "a folder without recordings",
+    IsADirectoryError: _EMPTY,
     PermissionError: "Permission denied",
     TimeoutError: "the server does not answer",
 }

@@ -12,7 +12,7 @@ import fsspec
 import pytest
 from rich.console import Console
 
-from mmsverify.audit.watching import AUDITING, LOOKING
+from mmsverify.audit.watching import AUDITING, FETCHING, LOOKING
 from mmsverify.auditing import audit_traces
 from mmsverify.cli import main
 from mmsverify.commands.bar import Bar, audit_bar, progress_on
@@ -137,6 +137,17 @@ def test_remote_recordings_of_unknown_size_are_counted(recordings: list[Location
     screen.clock.now += 1
     screen.bar.passed(AUDITING, 1_500_000, 10)
     assert screen.line() == "auditing x.mcap 0 of 3 files 1.5 MB 10 events/s -:--:--"
+
+
+def test_what_is_fetched_is_told() -> None:
+    watching = Watching()
+    fsspec.filesystem("memory").pipe("/bar/robot.mcap", ROBOT.read_bytes())
+    audit_traces(["memory://bar/robot.mcap"], profile=None, model=None, progress=watching)
+    assert watching.heard[0] == (FETCHING, ROBOT.stat().st_size, 0)
+    screen = Screen([Url("memory://bar/robot.mcap", 1_000)])
+    screen.bar.begin(Url("memory://bar/robot.mcap", 1_000))
+    screen.bar.passed(FETCHING, 500, 0)
+    assert screen.line() == "fetching robot.mcap: 50 % -:--:--"
 
 
 def test_what_has_vanished_is_nothing(tmp_path: Path) -> None:

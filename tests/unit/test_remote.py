@@ -129,6 +129,15 @@ def test_no_octet_is_fetched_twice_and_requests_grow(large: bytes) -> None:
         assert len(web.asked) < 10
 
 
+@pytest.mark.parametrize("ranges", [True, False])
+def test_what_has_come_is_told(large: bytes, ranges: bool) -> None:
+    heard: list[int] = []
+    with serving(Web({"x.mcap": large}, ranges=ranges)) as web:
+        trace = read_trace(web.url("x.mcap"), fetched=lambda octets, _: heard.append(octets))
+        assert len(list(trace)) == 600
+    assert heard[-1] == len(large)
+
+
 def test_without_parts_the_whole_is_fetched_once(large: bytes) -> None:
     with serving(Web({"x.mcap": large}, ranges=False)) as web:
         trace = read_trace(web.url("x.mcap"))
@@ -229,6 +238,7 @@ def test_what_a_server_refuses_is_one_line(capsys: pytest.CaptureFixture[str], w
         ("http://127.0.0.1:9/x.mcap", "Cannot connect"),
         ("http://127.0.0.1:9/*.mcap", "Cannot connect"),
         ("http://127.0.0.1:9/folder/", "Cannot connect"),
+        ("http://[::1]:9/x.mcap", "Cannot connect"),
         ("nope://x/y.mcap", "no way to open nope://"),
         ("memory://none/x.mcap", "No such file or directory"),
         ("memory://none/*.mcap", "No such file or directory"),
@@ -245,7 +255,23 @@ def test_what_cannot_be_opened_is_one_line(capsys: pytest.CaptureFixture[str], u
 
 def test_a_folder_without_recordings_is_told(memory: Any, capsys: pytest.CaptureFixture[str]) -> None:
     memory.pipe("/box/readme.txt", b"")
-    assert "box: " in line(capsys, "memory://box")
+    for url in ("memory://box", "memory://box/*.txt"):
+        assert line(capsys, url) == f"mmsverify: {url}: a folder without recordings"
+
+
+def test_a_recording_may_have_any_name(memory: Any) -> None:
+    memory.pipe("/box/recording", SAMPLE.read_bytes())
+    [found] = trace_locations(["memory://box/recording"])
+    assert sum(1 for _ in read_trace(found)) == 58  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("name", ["logs/", "logs/*.mcap"])
+def test_why_a_folder_is_not_listed_is_told(capsys: pytest.CaptureFixture[str], name: str) -> None:
+    with serving(Web({}, refuse=403)) as web:
+        url = web.url(name)
+        assert line(capsys, url) == f"mmsverify: {url}: the server answers 403 Forbidden"
+        [found] = trace_locations([url])
+        assert pickle.loads(pickle.dumps(found)) == found
 
 
 @pytest.mark.parametrize("ranges", [True, False])
@@ -298,8 +324,8 @@ def test_a_full_disk_is_told(memory: Any, monkeypatch: pytest.MonkeyPatch) -> No
 
     if not Path("/dev/full").exists():
         pytest.skip("needs a device that is full")
-    keep = remote._keep
-    monkeypatch.setattr(remote, "_keep", full)
+    keep = remote._write
+    monkeypatch.setattr(remote, "_write", full)
     memory.pipe("/x.mcap", SAMPLE.read_bytes())
     with pytest.raises(InputError, match="no room for what is fetched: No space left on device"):
         read_trace("memory://x.mcap")
