@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from rich.progress import Progress
 
 
+_WIDE = 110  # columns of a terminal; on a narrower one the name needs them more than the bar
+
+
 @contextmanager
 def audit_bar(locations: Sequence[Location], jobs: int, *, quiet: bool) -> Iterator[Watcher | None]:
     """A bar for as long as the audit runs; ``None`` where nobody watches."""
@@ -44,7 +47,7 @@ def progress_on(console: Console, clock: Callable[[], float] = time.monotonic) -
         "{task.description}", markup=False, table_column=Column(no_wrap=True, overflow="ellipsis", ratio=1)
     )
     told = [TextColumn(f"{{task.fields[{field}]}}", markup=False) for field in ("files", "octets", "events")]
-    columns = (name, BarColumn(bar_width=24), *told, TimeRemainingColumn())
+    columns = (name, BarColumn(bar_width=24 if console.width >= _WIDE else 8), *told, TimeRemainingColumn())
     return Progress(*columns, console=console, transient=True, expand=True, get_time=clock)
 
 
@@ -84,7 +87,7 @@ class Bar:
             self._progress.update(self._task, description=f"{stage} {self._name}{part}")
             return
         self._seen = octets, messages
-        self._show(f"{stage} {self._name}", self._octets + octets, self._messages + messages)
+        self._show(self._name, self._octets + octets, self._messages + messages)
 
     def finish(self) -> None:
         """A recording is done, whatever became of it."""
@@ -94,21 +97,29 @@ class Bar:
         self._show(None, self._octets, self._messages)
 
     def _show(self, description: str | None, octets: int, messages: int) -> None:
-        from rich.filesize import decimal
-
         seconds = self._clock() - self._begun
-        of_all = f" of {decimal(self._total)}" if self._total and not self._counted else ""
         self._progress.update(
             self._task,
             description=description,
             completed=self._done if self._counted else octets,
             files=self._of_files(),
-            octets=f"{decimal(octets)}{of_all}" if octets else "",
+            octets=_of(octets, 0 if self._counted else self._total) if octets else "",
             events=f"{messages / seconds:,.0f} events/s" if messages and seconds else "",
         )
 
     def _of_files(self) -> str:
-        return f"{self._done} of {self._files} files" if self._files > 1 else ""
+        return f"{self._done}/{self._files} files" if self._files > 1 else ""
+
+
+def _of(octets: int, total: int) -> str:
+    """``12.3/56.0 MB``"""
+    from rich.filesize import decimal
+
+    part, whole = decimal(octets), decimal(total)
+    if not total:
+        return part
+    number, _, unit = part.partition(" ")
+    return f"{number if whole.endswith(f' {unit}') else part}/{whole}"
 
 
 def _size(location: Location) -> int | None:

@@ -36,12 +36,12 @@ class Clock:
 
 
 class Screen:
-    """A bar on a terminal of 120 columns."""
+    """A bar on a terminal of so many columns."""
 
-    def __init__(self, locations: list[Location], *, shared: bool = False) -> None:
+    def __init__(self, locations: list[Location], *, shared: bool = False, width: int = 120) -> None:
         self.clock = Clock()
         self._out = io.StringIO()
-        console = Console(file=self._out, force_terminal=True, width=120, color_system=None)
+        console = Console(file=self._out, force_terminal=True, width=width, color_system=None)
         self._progress = progress_on(console, self.clock)
         self.bar = Bar(self._progress, locations, shared=shared)
 
@@ -89,21 +89,29 @@ def recordings(tmp_path: Path) -> list[Location]:
 def test_the_bar_goes_on_by_octets(recordings: list[Location]) -> None:
     screen = Screen(recordings)
     screen.bar.begin(recordings[0])
-    assert screen.line() == "opening a[b].mcap 0 of 2 files -:--:--"
+    assert screen.line() == "opening a[b].mcap 0/2 files -:--:--"
     screen.bar.passed(LOOKING, 1_000_000, 5_000)
-    assert screen.line() == "looking over a[b].mcap: 25 % 0 of 2 files -:--:--"
+    assert screen.line() == "looking over a[b].mcap: 25 % 0/2 files -:--:--"
     for second in range(3):
         screen.clock.now = 101.0 + second
         screen.bar.passed(AUDITING, second * 1_000_000, second * 3_000)
     screen.bar.passed(AUDITING, 2_000_000, 6_000)
-    assert screen.line() == "auditing a[b].mcap 0 of 2 files 2.0 MB of 12.0 MB 2,000 events/s 0:00:10"
+    assert screen.line() == "a[b].mcap 0/2 files 2.0/12.0 MB 2,000 events/s 0:00:10"
     screen.clock.now = 105.0
     screen.bar.passed(AUDITING, 4_000_000, 10_000)
     screen.bar.finish()
     screen.bar.begin(recordings[1])
-    assert screen.line() == "opening c.mcap 1 of 2 files 4.0 MB of 12.0 MB 2,000 events/s 0:00:08"
+    assert screen.line() == "opening c.mcap 1/2 files 4.0/12.0 MB 2,000 events/s 0:00:08"
     screen.bar.finish()
-    assert "2 of 2 files 12.0 MB of 12.0 MB" in screen.line()
+    assert "2/2 files 12.0/12.0 MB" in screen.line()
+
+
+def test_a_narrow_terminal_leaves_room_for_the_name(recordings: list[Location]) -> None:
+    screen = Screen(recordings, width=80)
+    screen.bar.begin(recordings[1])
+    screen.clock.now += 10
+    screen.bar.passed(AUDITING, 300_000, 12_345_670)
+    assert screen.line() == "c.mcap 0/2 files 300.0 kB/12.0 MB 1,234,567 events/s -:--:--"
 
 
 def test_of_one_recording_no_number_is_told(recordings: list[Location]) -> None:
@@ -114,11 +122,11 @@ def test_of_one_recording_no_number_is_told(recordings: list[Location]) -> None:
 
 def test_several_processes_tell_the_number_of_recordings(recordings: list[Location]) -> None:
     screen = Screen(recordings * 2, shared=True)
-    assert screen.line() == "auditing 4 recordings 0 of 4 files -:--:--"
+    assert screen.line() == "auditing 4 recordings 0/4 files -:--:--"
     for second in range(1, 4):
         screen.clock.now = 100.0 + second
         screen.bar.finish()
-    assert screen.line() == "auditing 4 recordings 3 of 4 files 0:00:01"
+    assert screen.line() == "auditing 4 recordings 3/4 files 0:00:01"
 
 
 def test_a_remote_recording_is_measured_when_it_is_opened() -> None:
@@ -128,7 +136,7 @@ def test_a_remote_recording_is_measured_when_it_is_opened() -> None:
     screen.bar.begin(url)
     screen.clock.now += 1
     screen.bar.passed(AUDITING, 1_500_000, 10)
-    assert screen.line().startswith("auditing x.mcap 1.5 MB of 3.0 MB 10 events/s")
+    assert screen.line().startswith("x.mcap 1.5/3.0 MB 10 events/s")
 
 
 def test_remote_recordings_of_unknown_size_are_counted(recordings: list[Location]) -> None:
@@ -136,7 +144,7 @@ def test_remote_recordings_of_unknown_size_are_counted(recordings: list[Location
     screen.bar.begin(Url("nowhere://x.mcap"))
     screen.clock.now += 1
     screen.bar.passed(AUDITING, 1_500_000, 10)
-    assert screen.line() == "auditing x.mcap 0 of 3 files 1.5 MB 10 events/s -:--:--"
+    assert screen.line() == "x.mcap 0/3 files 1.5 MB 10 events/s -:--:--"
 
 
 def test_what_is_fetched_is_told() -> None:

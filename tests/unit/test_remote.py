@@ -262,7 +262,7 @@ def test_a_folder_without_recordings_is_told(memory: Any, capsys: pytest.Capture
 def test_a_recording_may_have_any_name(memory: Any) -> None:
     memory.pipe("/box/recording", SAMPLE.read_bytes())
     [found] = trace_locations(["memory://box/recording"])
-    assert sum(1 for _ in read_trace(found)) == 58  # type: ignore[arg-type]
+    assert sum(1 for _ in read_trace(found)) == 58
 
 
 @pytest.mark.parametrize("name", ["logs/", "logs/*.mcap"])
