@@ -6,18 +6,20 @@ Each recording is replayed device by device, event by event; a file that cannot 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from mmsverify.audit.annotate import annotate
 from mmsverify.audit.kept import of_thread
 from mmsverify.audit.replay import Replay
 from mmsverify.audit.spoken import Listener
+from mmsverify.audit.watching import FETCHING, Stages, Watcher, stage
 from mmsverify.errors import InputError, MmsverifyError, ProfileError
 from mmsverify.events import MmsEvent
+from mmsverify.formats.locations import Location, Url, located
 from mmsverify.formats.mcap import McapTrace, read_trace
 from mmsverify.profiles import for_recording, load_profile, within_framework
 from mmsverify.results import Audit, AuditedInput, Finding
@@ -33,8 +35,8 @@ class Manner:
     """How recordings are to be audited.
 
     ``exact``: each message is judged by itself, and not by what was learned from those before: slow, and the
-    same findings. ``kernel``: whether compiled loops (extra ``fast``) follow what was learned; ``None``: where
-    they are installed and the recording is long.
+    same findings. ``kernel``: whether compiled loops (extra ``fast``) follow what was learned; ``None``:
+    where they are installed and the recording is long.
     """
 
     profile: Path | None = None
@@ -45,28 +47,32 @@ class Manner:
 
 
 def audit_traces(
-    paths: Sequence[Path],
+    paths: Sequence[str | Path | Url],
     *,
     profile: Path | None,
     model: str | None,
     variant: str = "repaired",
-    progress: Callable[[str], None] | None = None,
+    progress: Watcher | None = None,
     exact: bool = False,
     kernel: bool | None = None,
     jobs: int = 1,
 ) -> Audit:
     """Replay every trace against its model. An unreadable file is a finding; the others are audited.
 
+    A string such as ``s3://bucket/x.mcap`` is the URL of one file, which fsspec opens (extra ``remote``).
     ``exact`` as in `Manner`; ``jobs``: so many processes share the work. The result is the same.
     """
     manner = Manner(profile, model, variant, exact, kernel)
     load_profile(profile)  # a bad one is told before any work is done
+    locations = [located(path) for path in paths]
     if jobs > 1 and len(paths) > 1:
         from mmsverify.audit.sharing import shared
 
-        done = shared(partial(audit_trace, manner=manner), paths, jobs, progress)
+        told = None if progress is None else lambda _: progress.finish()
+        # A URL stands for a path there: it is passed on and shown, no more.
+        done = shared(partial(audit_trace, manner=manner), cast("list[Path]", locations), jobs, told)
     else:
-        done = [_announced(path, manner, progress) for path in paths]
+        done = [_announced(location, manner, progress) for location in locations]
     inputs: list[AuditedInput] = []
     findings: list[Finding] = []
     for entry, found in done:
@@ -76,32 +82,37 @@ def audit_traces(
 
 
 def _announced(
-    path: Path, manner: Manner, progress: Callable[[str], None] | None
+    path: Location, manner: Manner, progress: Watcher | None
 ) -> tuple[AuditedInput | None, list[Finding]]:
-    if progress is not None:
-        progress(f"auditing {path}")
-    return audit_trace(path, manner)
+    if progress is None:
+        return audit_trace(path, manner)
+    progress.begin(path)
+    done = audit_trace(path, manner, progress.passed)
+    progress.finish()
+    return done
 
 
-def audit_trace(path: Path, manner: Manner) -> tuple[AuditedInput | None, list[Finding]]:
+def audit_trace(
+    path: Location, manner: Manner, passed: Stages | None = None
+) -> tuple[AuditedInput | None, list[Finding]]:
     """Replay one trace; of one that cannot be read there is a finding that says so, and nothing else."""
     try:
-        trace = read_trace(path)
+        trace = read_trace(path, fetched=stage(FETCHING, passed))
         tables = for_recording(manner.profile, trace.profile, str(path))
-        return _audit(trace, tables, manner)
+        return _audit(trace, tables, manner, passed)
     except (InputError, ProfileError) as error:
         if manner.profile is not None and isinstance(error, ProfileError):
             raise
-        return None, [_unreadable(path, error)]
+        return None, [_unreadable(str(path), error)]
 
 
-def read_events(path: Path) -> Iterator[MmsEvent]:
+def read_events(path: str | Path | Url) -> Iterator[MmsEvent]:
     """The MMS messages of a recording as flat data, answers paired with requests; nothing is judged."""
     return Listener().events(read_trace(path))
 
 
 def _audit(
-    trace: McapTrace, tables: Mapping[str, Mapping[str, Any]], manner: Manner
+    trace: McapTrace, tables: Mapping[str, Mapping[str, Any]], manner: Manner, passed: Stages | None
 ) -> tuple[AuditedInput, list[Finding]]:
     begin = time.perf_counter()
     replay = Replay(
@@ -112,8 +123,9 @@ def _audit(
         exact=manner.exact,
         kept=None if manner.exact else of_thread(),
         kernel=manner.kernel,
+        passed=passed,
     )
-    findings = list(_findings(replay, Path(trace.path)))
+    findings = list(_findings(replay, trace.path))
     if trace.truncated and not replay.messages and not findings:
         raise InputError(
             "cut off before the end of its first message",
@@ -126,7 +138,7 @@ def _audit(
     ), findings
 
 
-def _findings(replay: Replay, path: Path) -> Iterator[Finding]:
+def _findings(replay: Replay, path: str) -> Iterator[Finding]:
     """What the replay finds, up to the point at which the recording cannot be read on."""
     try:
         yield from replay.run()
@@ -134,8 +146,8 @@ def _findings(replay: Replay, path: Path) -> Iterator[Finding]:
         yield _unreadable(path, error)
 
 
-def _unreadable(path: Path, error: MmsverifyError) -> Finding:
+def _unreadable(path: str, error: MmsverifyError) -> Finding:
     return Finding(
-        path=str(path), index=None, time=None, topic=None, vmd=None, severity="error", rule=UNREADABLE,
+        path=path, index=None, time=None, topic=None, vmd=None, severity="error", rule=UNREADABLE,
         clauses=("R-7.3.1-2",), message=str(error),
     )  # fmt: skip

@@ -16,6 +16,7 @@ from mmsverify.audit.spoken import Listener
 from mmsverify.audit.words import ROBOT_STATE
 from mmsverify.errors import InputError
 from mmsverify.events import MmsEvent
+from mmsverify.formats.locations import Location
 from mmsverify.formats.mcap import McapTrace, TraceWriter, read_trace
 from mmsverify.formats.trace import Channel, Schema, TraceMessage
 from mmsverify.results import Finding
@@ -48,7 +49,7 @@ STATE = _schema(
 _SHOWN = frozenset({"robot_state", "selected", "local_control", "logical", "physical"})
 
 
-def annotate(path: Path, findings: Sequence[Finding], out: Path) -> None:
+def annotate(path: Location, findings: Sequence[Finding], out: Path) -> None:
     """Copy the recording at ``path`` to ``out`` with those findings that are its own.
 
     Everything is copied that can be read; raises ``InputError`` only where nothing can. A finding without a

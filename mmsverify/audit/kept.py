@@ -1,4 +1,4 @@
-"""What a process keeps, thread by thread, from one recording to the next: models as they were loaded, and what was learned.
+"""What a thread keeps from one recording to the next: models as they were loaded, and what was learned.
 
 Nothing in it depends on which recordings were audited before, or in which order, but the time that it saves.
 """

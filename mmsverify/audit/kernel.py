@@ -169,7 +169,7 @@ class KernelTrail:
         arrays.trail[number] = self._mirror.step(step) << 8 | self._device
         arrays.devices[self._device, loops.PENDING] += 1
 
-    def last_written(self, stretch: Stretch) -> Iterable[tuple[Step, int]]:
+    def last_written(self, stretch: Stretch) -> Iterable[tuple[Step, int]]:  # noqa: ARG002
         """As `Trail`."""
         steps, a = self._mirror.steps, self._mirror.arrays
         last = np.full(len(steps), -1, "i8")
@@ -177,7 +177,7 @@ class KernelTrail:
         found = np.flatnonzero(last >= 0).tolist()
         return [(steps[number], int(last[number])) for number in found if steps[number].wrote]
 
-    def origin(self, place: int, stretch: Stretch) -> Origin:
+    def origin(self, place: int, stretch: Stretch) -> Origin:  # noqa: ARG002
         """As `Trail`."""
         a, ends = self._mirror.arrays, (self._begin, self._end)
         passed, place = self._mirror.code.origin(a.trail, a.steps, a.sources, *ends, self._device, place)

@@ -29,8 +29,8 @@ DEVICE_ROW, STATE, WHOLE, COUNT, PENDING, LATEST, INVOKES = 32, 0, 1, 2, 3, 4, 1
 """Of a device: its state (-1: unknown), whether its messages have no invokeIDs, how many it has itself, how
 many steps are new to it, its last step (-1: unknown); then its invokeIDs."""
 CLASS_ROW, HASH, HEAD, PART, AT, SIZE, NUMBER = 8, 0, 1, 2, 3, 4, 5
-"""Of a class: a hash (0: no class), the octets before the invokeID, the role, the address of the others and how
-many they are, its number."""
+"""Of a class: a hash (0: no class), the octets before the invokeID, the role, the address of the others and
+how many they are, its number."""
 ENTRY_ROW, KEY, STEP = 2, 0, 1
 """Of an entry: state and event in one number (0: no entry), and the step."""
 STEP_ROW, TARGET, MOVING, TRACING, FROM, EVENT, CLASS, GUESS = 8, 0, 1, 2, 3, 4, 5, 6

@@ -22,6 +22,7 @@ from mmsverify.formats import mcap_records as rec
 from mmsverify.formats import mms
 from mmsverify.formats.mcap import McapTrace
 from mmsverify.formats.mms import Pdu
+from mmsverify.formats.passing import Tick
 from mmsverify.formats.stretch import Stretch
 from mmsverify.formats.trace import Channel, TraceMessage
 
@@ -81,16 +82,20 @@ class _Requests:
 class Lookahead:
     """``base_only`` are the associations of devices that are no robots.
 
-    Their Initiate shows no additional services, and no robot detail follows.
+    Their Initiate shows no additional services, and no robot detail follows. ``tick`` is told how far it is.
     """
 
-    def __init__(self, trace: McapTrace, *, merged: bool = False) -> None:
+    def __init__(self, trace: McapTrace, *, merged: bool = False, tick: Tick | None = None) -> None:
         self._begun: dict[Key, bool] = {}
         self._requests: dict[Key, _Requests] = defaultdict(_Requests)
         self._blind: dict[Key, list[Span]] = defaultdict(list)
         with suppress(InputError):  # what cannot be read on is told when it is judged
             for stretch in trace.stretches(merged=merged):
                 self._look(stretch)
+                if tick is not None:
+                    tick(stretch.octets(stretch.size), stretch.index + len(stretch.places))
+        if tick is not None:
+            tick.end()
         self.base_only = frozenset(key for key, robot in self._begun.items() if not robot)
 
     def _look(self, stretch: Stretch) -> None:

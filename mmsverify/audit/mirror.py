@@ -35,9 +35,9 @@ def compiled(function: Callable[..., Any]) -> Any:
 class Arrays(NamedTuple):
     """What the loops read and write, by the columns that are named there.
 
-    ``channels`` by number; ``devices``, ``steps``, their ``moves`` and ``sources`` by number here; ``classes``
-    (their octets in the ``pool``) and ``entries`` are hash tables; ``places`` are the offsets of the messages
-    passed, the ``trail`` step and device of each (-1: none), ``counts`` how many they are.
+    ``channels`` by number; ``devices``, ``steps``, their ``moves`` and ``sources`` by number here;
+    ``classes`` (their octets in the ``pool``) and ``entries`` are hash tables; ``places`` are the offsets of
+    the messages passed, the ``trail`` step and device of each (-1: none), ``counts`` how many they are.
     """
 
     channels: Any
@@ -183,8 +183,9 @@ def _arrays() -> Arrays:
     channels, devices = zeros("i8", _CHANNELS, loops.CHANNEL_ROW), zeros("i8", DEVICES, loops.DEVICE_ROW)
     channels[:, loops.DEVICE] = devices[:, loops.STATE] = -1
     return Arrays(
-        channels=channels, devices=devices, classes=zeros("i8", _SLOTS, loops.CLASS_ROW), pool=zeros("u1", POOL),
-        entries=zeros("i8", _SLOTS, loops.ENTRY_ROW), steps=zeros("i8", _SLOTS, loops.STEP_ROW), moves=zeros("i1", _SLOTS, MOST_MARKS),
+        channels=channels, devices=devices, classes=zeros("i8", _SLOTS, loops.CLASS_ROW),
+        pool=zeros("u1", POOL), entries=zeros("i8", _SLOTS, loops.ENTRY_ROW),
+        steps=zeros("i8", _SLOTS, loops.STEP_ROW), moves=zeros("i1", _SLOTS, MOST_MARKS),
         sources=zeros("i1", _SLOTS, MOST_MARKS), scratch=zeros("i8", MOST_MARKS), trail=zeros("i4", 1),
         places=zeros("i4", 1), counts=zeros("i8", 2),
     )  # fmt: skip

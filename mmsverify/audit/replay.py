@@ -19,9 +19,11 @@ from mmsverify.audit.parts import FRAMEWORK, ROBOT, SIGNALS, Parts, Tables
 from mmsverify.audit.telling import History, Place
 from mmsverify.audit.vr import Controller
 from mmsverify.audit.walk import Walk
+from mmsverify.audit.watching import AUDITING, LOOKING, Stages, stage
 from mmsverify.concrete.belief.coverage import Coverage
 from mmsverify.errors import InputError, UsageError
 from mmsverify.formats.mcap import McapTrace
+from mmsverify.formats.passing import Tick
 from mmsverify.formats.stretch import DisorderError, Stretch
 from mmsverify.formats.trace import Channel, TraceMessage
 from mmsverify.results import Finding
@@ -44,10 +46,10 @@ class Replay:
     """One recording under a profile.
 
     ``exact``: every message is judged by itself, and nothing is learned from those before; the findings are
-    the same. ``kept``: what has been loaded and learned for other recordings. ``kernel``: whether compiled loops
-    follow what was learned; where nothing is said, if they are installed and the recording is long. ``messages``, ``events`` and
-    ``skipped`` are counts, true once the run is over; ``coverage`` is what the events of each device have
-    exercised, as far as nothing was known of them before.
+    the same. ``kept``: what has been loaded and learned for other recordings. ``kernel``: whether compiled
+    loops follow what was learned; where nothing is said, if they are installed and the recording is long.
+    ``passed`` is told how far it is. ``messages``, ``events`` and ``skipped`` are counts, true once the run
+    is over; ``coverage`` is what the events of each device have exercised, as far as they were not known.
     """
 
     def __init__(
@@ -60,6 +62,7 @@ class Replay:
         exact: bool = False,
         kept: Kept | None = None,
         kernel: bool | None = None,
+        passed: Stages | None = None,
     ) -> None:
         self.trace = trace
         self._kept = kept or Kept()
@@ -67,6 +70,7 @@ class Replay:
         self._exact, self._asked = exact, _known(model)
         self._ahead: Lookahead | None = None
         self._merged = False
+        self._passed, self._tick = passed, Tick(stage(AUDITING, passed))
         self._walk = self._quick_way(kernel)
         self._begin()
 
@@ -107,6 +111,7 @@ class Replay:
         except InputError:
             yield from found
             raise
+        self._tick.end()
         yield from found
 
     def _through(self, found: list[Finding]) -> bool:
@@ -115,6 +120,7 @@ class Replay:
             for stretch in self.trace.stretches(merged=self._merged):
                 try:
                     found += self._stretch(stretch)
+                    self._tick(stretch.octets(stretch.size), stretch.index + len(stretch.places))
                 finally:
                     self.messages = stretch.index + len(stretch.places)
                     self.events = self.messages - self.skipped
@@ -136,6 +142,7 @@ class Replay:
                 break
             number = stretch.number(at)
             at, message = stretch.next(at)
+            self._tick(stretch.octets(at), stretch.index + len(stretch.places))
             if message is None:
                 self._walk.begin()  # it may have defined a channel anew
                 continue
@@ -185,7 +192,8 @@ class Replay:
             self._look_ahead(message.index, stretch)
 
     def _look_ahead(self, index: int, stretch: Stretch) -> None:
-        self._ahead = Lookahead(self.trace, merged=self._merged)
+        tick = Tick(stage(LOOKING, self._passed))
+        self._ahead = Lookahead(self.trace, merged=self._merged, tick=tick)
         for vmd, learned in self._devices.items():
             spans = self._ahead.blind(vmd)
             if any(first < index for first, _ in spans):

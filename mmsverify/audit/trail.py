@@ -9,7 +9,7 @@ from mmsverify.audit.tables import PRESENT, Step
 from mmsverify.formats.stretch import Stretch
 
 Origin = tuple[int | None, int]
-"""Where a mark comes from: which message passed in the stretch, or ``None`` and its number before the trail."""
+"""Where a mark comes from: which message passed, or ``None`` and its number before the trail."""
 
 
 class Trail(Protocol):

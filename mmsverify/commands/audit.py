@@ -7,10 +7,12 @@ from typing import Annotated
 
 import typer
 
+from mmsverify.commands.bar import audit_bar
 from mmsverify.commands.options import Output, Profile, Quiet, Variant
-from mmsverify.commands.output import emit, progress, remark, require_writable
-from mmsverify.commands.paths import input_paths
+from mmsverify.commands.output import emit, remark, require_writable
+from mmsverify.commands.paths import trace_locations
 from mmsverify.errors import InputError, UsageError
+from mmsverify.formats.locations import Location, local
 from mmsverify.report import AUDIT_FORMATS, render_audit, require_format
 from mmsverify.results import Audit
 
@@ -19,7 +21,8 @@ UNREADABLE = "input.unreadable"
 
 def audit(
     traces: Annotated[
-        list[str], typer.Argument(metavar="TRACE", help="MCAP files, folders of them, or patterns.")
+        list[str],
+        typer.Argument(metavar="TRACE", help="MCAP files, folders of them, or patterns; also URLs."),
     ],
     *,
     profile: Profile = None,
@@ -47,13 +50,13 @@ def audit(
     Exit status: 0 no error-level violation, 1 at least one, 2 bad request or nothing could be read.
     """
     require_format(format, AUDIT_FORMATS)
-    paths = input_paths(traces)
-    require_writable(output, paths)
+    paths = trace_locations(traces)
+    require_writable(output, local(paths))
     if annotate is not None:
         _require_one(annotate, paths)
     from mmsverify.auditing import audit_traces
 
-    with progress(quiet=quiet) as report:
+    with audit_bar(paths, jobs, quiet=quiet) as report:
         result = audit_traces(
             paths, profile=profile, model=model, variant=variant, progress=report, exact=exact, jobs=jobs
         )
@@ -64,8 +67,8 @@ def audit(
     return int(any(finding.severity == "error" for finding in result.findings))
 
 
-def _require_one(annotate: Path, paths: list[Path]) -> None:
-    require_writable(annotate, paths)
+def _require_one(annotate: Path, paths: list[Location]) -> None:
+    require_writable(annotate, local(paths))
     if len(paths) != 1:
         raise UsageError(
             f"takes one trace, {len(paths)} given", place="--annotate", cure="annotate them one by one"
@@ -84,7 +87,7 @@ def _require_read(audit: Audit) -> None:
     raise InputError(first.message, place=place, cure=others)
 
 
-def _annotate(path: Path, result: Audit, out: Path, *, quiet: bool) -> None:
+def _annotate(path: Location, result: Audit, out: Path, *, quiet: bool) -> None:
     from mmsverify.auditing import annotate
 
     annotate(path, result.findings, out)

@@ -1,4 +1,4 @@
-"""Inputs as the command line names them: files, folders (searched by suffix) and glob patterns."""
+"""Inputs as the command line names them: files, folders (searched by suffix) and glob patterns; also URLs."""
 
 from __future__ import annotations
 
@@ -7,8 +7,20 @@ import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+from mmsverify.formats.locations import Location, Url, is_url
+from mmsverify.formats.remote import listed
+
 TRACES = (".mcap",)
 CAPTURES = (".pcap", ".pcapng", ".cap", ".csv")
+
+
+def trace_locations(arguments: Iterable[str]) -> list[Location]:
+    """The recordings meant, as `input_paths` says, on this machine or on others."""
+    return list(dict.fromkeys(found for argument in arguments for found in _located(argument)))
+
+
+def _located(argument: str) -> Iterable[Location]:
+    return listed(Url(argument), TRACES) if is_url(argument) else _meant(argument, TRACES)
 
 
 def input_paths(arguments: Iterable[str], suffixes: tuple[str, ...] = TRACES) -> list[Path]:

@@ -16,9 +16,12 @@ from pathlib import Path
 from typing import BinaryIO
 
 from mmsverify.errors import InputError
+from mmsverify.formats.locations import Url, located
 from mmsverify.formats.mcap_records import Definitions, Message
 from mmsverify.formats.mcap_survey import Block, Survey, survey
 from mmsverify.formats.mcap_write import TraceWriter
+from mmsverify.formats.passing import Passed
+from mmsverify.formats.remote import Store
 from mmsverify.formats.stretch import DisorderError, Stretch, joined
 from mmsverify.formats.trace import PROFILE_RECORD, TraceMessage
 
@@ -45,6 +48,7 @@ class McapTrace:
     truncated: bool
     remark: str
     _survey: Survey = field(repr=False)
+    _store: Store | None = field(default=None, repr=False, compare=False)  # of a remote file
 
     @property
     def profile(self) -> Mapping[str, str]:
@@ -65,7 +69,7 @@ class McapTrace:
 
     def batches(self) -> Iterator[list[Message]]:
         """The same messages as lists of (log time, rank, channel, data), for readers in a hurry."""
-        with _open(self.path) as file:
+        with _open(self.path, self._store) as file:
             try:
                 yield from _in_order(file, self._survey)
             except InputError as error:
@@ -85,11 +89,12 @@ class McapTrace:
             raise DisorderError
         known = _copied(self._survey)
         index = last = 0
-        with _open(self.path) as file:
+        with _open(self.path, self._store) as file:
             for block in blocks:
                 data = self._unpacked(file, block)
                 wrong = partial(self._wrong, block)
-                stretch = Stretch(data, index, last, known, wrong, block.cut)
+                ends = block.position + block.size
+                stretch = Stretch(data, index, last, known, wrong, block.cut, (block.position, ends))
                 yield stretch
                 index, last = index + len(stretch.places), stretch.last
 
@@ -104,31 +109,40 @@ class McapTrace:
         return InputError(cause, place=self.path, cure=error.cure)
 
     def _merged(self) -> Iterator[Stretch]:
-        index = last = 0
+        index = last = read = 0
+        size = max((block.position + block.size for block in self._survey.blocks), default=0)
         for batch in self.batches():
             stretch = joined(batch, index, last)
+            # What stands together here does not in the file: as much of it is passed as of all octets.
+            begin, read = read, read + stretch.size
+            stretch.span = size * begin // max(self.octets, read), size * read // max(self.octets, read)
             yield stretch
             index, last = index + len(stretch.places), stretch.last
 
 
-def read_trace(path: str | os.PathLike[str]) -> McapTrace:
+def read_trace(path: str | os.PathLike[str] | Url, *, fetched: Passed | None = None) -> McapTrace:
     """Survey an MCAP file: metadata and truncation are known at once, messages come by iterating.
 
-    Raises ``InputError`` for what cannot be read at all: not MCAP, empty, a folder, no permission, lying
-    lengths.
+    A string such as ``s3://bucket/x.mcap`` is a URL, which fsspec opens (extra ``remote``); ``fetched`` is
+    told the octets of it that have come, now and later. Raises ``InputError`` for what cannot be read at all:
+    not MCAP, empty, a folder, no permission, lying lengths.
     """
-    place = os.fspath(path)
-    with _open(place) as file:
+    location = located(path)
+    store = Store(location, fetched) if isinstance(location, Url) else None
+    place = str(location) if isinstance(path, Url) or store else os.fspath(path)
+    with _open(place, store) as file:
         try:
             found = survey(file)
         except InputError as error:
             raise InputError(error.cause, place=place, cure=error.cure) from None
         except OSError as error:
             raise InputError(error.strerror or str(error), place=place) from None
-    return McapTrace(place, found.metadata, bool(found.remark), found.remark, found)
+    return McapTrace(place, found.metadata, bool(found.remark), found.remark, found, store)
 
 
-def _open(place: str) -> BinaryIO:
+def _open(place: str, store: Store | None) -> BinaryIO:
+    if store is not None:
+        return store.open()
     try:
         if Path(place).is_dir():
             raise InputError(

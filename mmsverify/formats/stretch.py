@@ -34,7 +34,8 @@ class Stretch:
 
     ``places`` are the offsets of the messages passed so far; whoever passes one adds it. ``last`` is the log
     time of the last one passed, or of the last one before the stretch. ``cut``: the last record need not be
-    whole. ``place`` says where the stretch begins, for who reads an error.
+    whole. ``wrong`` says of an error where it is. ``span`` is where the octets of the stretch begin and
+    end in the file, as far as they stand together there.
     """
 
     data: bytes
@@ -43,12 +44,18 @@ class Stretch:
     known: rec.Definitions
     wrong: Callable[[InputError], InputError]
     cut: bool = False
+    span: tuple[int, int] = (0, 0)
     places: Places = field(default_factory=list[int])
 
     @property
     def size(self) -> int:
         """How many octets there are."""
         return len(self.data)
+
+    def octets(self, at: int) -> int:
+        """How much of the file has been passed with what stands before that offset."""
+        begin, end = self.span
+        return begin + (end - begin) * at // max(self.size, 1)
 
     def message(self, at: int) -> TraceMessage:
         """The message at that offset."""

@@ -110,5 +110,7 @@ def _properties(finding: Finding) -> dict[str, Any]:
 
 def _uri(path: str) -> str:
     """A URI reference: relative paths stay relative, octets outside the URI alphabet are percent-encoded."""
+    if "://" in path:  # the URL of a remote recording
+        return quote(path, safe="%/:?#[]@!$&'()*+,;=~")
     octets = quote(os.fsencode(Path(path).as_posix()))
     return f"file://{octets}" if octets.startswith("/") else octets

@@ -66,11 +66,17 @@ HOMES = {
     "mcap": {"formats"},
     "lz4": {"formats"},
     "zstandard": {"formats"},
+    "fsspec": {"formats"},
+    "aiohttp": {"formats"},
 }
 THIRD_PARTY = {"errors": set[str](), "events": set[str](), "results": set[str](), "model": set[str](),
                "concrete": {"numpy", "numba"}, "symbolic": {"z3"}}  # fmt: skip
 
-NETWORK = {"socket", "socketserver", "http", "urllib.request", "asyncio", "ssl", "requests"}
+NETWORK = {
+    "socket", "socketserver", "http", "urllib.request", "asyncio", "ssl", "requests",
+    "fsspec", "aiohttp", "s3fs", "gcsfs", "botocore",
+}  # fmt: skip
+REMOTE = Path(PACKAGE, "formats", "remote.py")
 
 
 def own_part(path: Path) -> str:
@@ -131,10 +137,18 @@ def test_the_core_needs_the_standard_library_only(folder: str) -> None:
     assert offences == []
 
 
-def test_nothing_but_the_recorder_opens_a_network_connection() -> None:
-    others = [path for path in python_files(PACKAGE) if own_part(path) != "recording"]
+def test_nothing_but_the_recorder_and_remote_recordings_open_a_network_connection() -> None:
+    others = [path for path in python_files(PACKAGE) if own_part(path) != "recording" and path != REMOTE]
     users = {str(path): imports(path) & NETWORK for path in others}
     assert {path: names for path, names in users.items() if names} == {}
+
+
+def test_remote_recordings_reach_the_network_by_fsspec_alone_and_only_when_there_is_one() -> None:
+    assert imports(REMOTE) & NETWORK == {"fsspec", "aiohttp"}
+    at_once = [
+        ast.unparse(node) for node in parsed(REMOTE).body if isinstance(node, ast.Import | ast.ImportFrom)
+    ]
+    assert [line for line in at_once if line.split()[1].split(".")[0] in NETWORK] == []
 
 
 def test_model_files_know_the_language_only() -> None:
