@@ -5,40 +5,60 @@ Each recording is replayed device by device, event by event; a file that cannot 
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from mmsverify.audit.annotate import annotate
 from mmsverify.audit.replay import Replay
 from mmsverify.audit.spoken import Listener
-from mmsverify.errors import InputError, MmsverifyError, ProfileError
+from mmsverify.errors import InputError, ProfileError
 from mmsverify.events import MmsEvent
+from mmsverify.fleet.tasks import Done, Engine, here, unreadable
 from mmsverify.formats.mcap import McapTrace, read_trace
-from mmsverify.profiles import for_recording, load_profile, within_framework
+from mmsverify.profiles import from_metadata, load_profile, within_framework
 from mmsverify.results import Audit, AuditedInput, Finding
 
-__all__ = ["annotate", "audit_traces", "read_events"]
+if TYPE_CHECKING:
+    from mmsverify.fleet.cluster import Client
 
-UNREADABLE = "input.unreadable"
-"""The rule of a file that is no recording, or of the point at which one cannot be read on."""
+__all__ = ["annotate", "audit_each", "audit_traces", "read_events"]
+
+Tables = Mapping[str, Mapping[str, Any]]
 
 
 @dataclass(frozen=True, slots=True)
 class Manner:
-    """How recordings are to be audited.
+    """How recordings are to be audited: all that a result depends on, beside the recording and the program.
 
-    ``exact``: each message is judged by itself, and not by what was learned from those before: slow, and the
-    same findings.
+    ``tables``: the profile, read once; ``given``: it was asked for, and what a recording says of itself does
+    not count. ``exact``: each message is judged by itself, and not by what was learned from those before:
+    slow, and the same findings.
     """
 
-    profile: Path | None = None
+    tables: Tables
+    given: bool
     model: str | None = None
     variant: str = "repaired"
     exact: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Sharing:
+    """Who does the work: so many processes, or a Dask cluster, by its address or by a client of it.
+
+    ``resume``: the folder in which finished results are kept.
+    """
+
+    jobs: int | None = None
+    scheduler: str | None = None
+    client: Client | None = None
+    resume: Path | None = None
 
 
 def audit_traces(
@@ -49,46 +69,106 @@ def audit_traces(
     variant: str = "repaired",
     progress: Callable[[str], None] | None = None,
     exact: bool = False,
-    jobs: int = 1,
+    jobs: int | None = None,
+    scheduler: str | None = None,
+    client: Client | None = None,
+    resume: Path | None = None,
 ) -> Audit:
     """Replay every trace against its model. An unreadable file is a finding; the others are audited.
 
-    ``exact`` as in `Manner`; ``jobs``: so many processes share the work. The result is the same.
-    """
-    manner = Manner(profile, model, variant, exact)
-    load_profile(profile)  # a bad one is told before any work is done
-    if jobs > 1 and len(paths) > 1:
-        from mmsverify.audit.sharing import shared
+    ``exact`` as in `Manner`. ``jobs``: so many processes share the work. ``scheduler``: the workers of a Dask
+    cluster do, that of this address, or with ``local`` one of ``jobs`` processes (without: one a core), which
+    ends with the audit; ``client``: those of the cluster that a ``distributed.Client`` is connected to.
+    ``resume``: a folder where the results of finished recordings are kept; an audit that was broken off goes
+    on from there. The result is the same, whoever does the work and in whatever order.
 
-        done = shared(partial(audit_trace, manner=manner), paths, jobs, progress)
-    else:
-        done = [_announced(path, manner, progress) for path in paths]
+    Raises :class:`ProfileError` for a bad profile, :class:`UsageError` for a scheduler that does not answer,
+    workers that cannot be started, a folder that is not for results.
+    """
+    manner = _manner(profile, model, variant, exact)
+    sharing = Sharing(jobs, scheduler, client, resume)
+    done = dict(_results(paths, manner, sharing, progress))
     inputs: list[AuditedInput] = []
     findings: list[Finding] = []
-    for entry, found in done:
+    for number in range(len(paths)):
+        entry, found = done.pop(number)
         inputs += [entry] if entry is not None else []
         findings += found
     return Audit(inputs, findings)
 
 
-def _announced(
-    path: Path, manner: Manner, progress: Callable[[str], None] | None
-) -> tuple[AuditedInput | None, list[Finding]]:
-    if progress is not None:
-        progress(f"auditing {path}")
-    return audit_trace(path, manner)
+def audit_each(
+    paths: Sequence[Path],
+    *,
+    profile: Path | None,
+    model: str | None,
+    variant: str = "repaired",
+    progress: Callable[[str], None] | None = None,
+    exact: bool = False,
+    jobs: int | None = None,
+    scheduler: str | None = None,
+    client: Client | None = None,
+    resume: Path | None = None,
+) -> Iterator[Audit]:
+    """The same, an `Audit` a recording, as they come: no more than what is under way is held in memory."""
+    manner = _manner(profile, model, variant, exact)
+    sharing = Sharing(jobs, scheduler, client, resume)
+    results = _results(paths, manner, sharing, progress)
+    return (Audit([] if entry is None else [entry], found) for _, (entry, found) in results)
 
 
-def audit_trace(path: Path, manner: Manner) -> tuple[AuditedInput | None, list[Finding]]:
+def _manner(profile: Path | None, model: str | None, variant: str, exact: bool) -> Manner:
+    return Manner(load_profile(profile), profile is not None, model, variant, exact)
+
+
+def _results(
+    paths: Sequence[Path], manner: Manner, sharing: Sharing, progress: Callable[[str], None] | None
+) -> Iterator[tuple[int, Done]]:
+    """The numbers of the paths with their results, as they come."""
+    with _engine(paths, sharing, progress) as engine:
+        if sharing.resume is not None:
+            from mmsverify.fleet.kept import Kept
+
+            engine = Kept(sharing.resume, manner).around(engine)
+        for count, result in enumerate(engine(partial(audit_trace, manner=manner), paths), start=1):
+            if progress is not None and len(paths) > 1:
+                progress(f"audited {count} of {len(paths)}")
+            yield result
+
+
+@contextmanager
+def _engine(
+    paths: Sequence[Path], sharing: Sharing, progress: Callable[[str], None] | None
+) -> Iterator[Engine]:
+    """Who does the work. What the engines of several processes need is loaded where they are asked for."""
+    if sharing.client is not None:
+        from mmsverify.fleet import cluster
+
+        yield partial(cluster.shared, client=sharing.client)
+    elif sharing.scheduler is not None:
+        from mmsverify.fleet import cluster
+
+        workers = min(sharing.jobs or os.cpu_count() or 1, max(len(paths), 1))
+        with cluster.connected(sharing.scheduler, workers) as client:
+            yield partial(cluster.shared, client=client)
+    elif (jobs := sharing.jobs or 1) > 1 and len(paths) > 1:
+        from mmsverify.fleet import processes
+
+        yield partial(processes.shared, jobs=jobs)
+    else:
+        yield partial(here, progress=progress)
+
+
+def audit_trace(path: Path, manner: Manner) -> Done:
     """Replay one trace; of one that cannot be read there is a finding that says so, and nothing else."""
     try:
         trace = read_trace(path)
-        tables = for_recording(manner.profile, trace.profile, str(path))
-        return _audit(trace, tables, manner)
+        said = {} if manner.given else from_metadata(trace.profile, str(path))
+        return _audit(trace, {**manner.tables, **said}, manner)
     except (InputError, ProfileError) as error:
-        if manner.profile is not None and isinstance(error, ProfileError):
+        if manner.given and isinstance(error, ProfileError):
             raise
-        return None, [_unreadable(path, error)]
+        return None, [unreadable(path, str(error))]
 
 
 def read_events(path: Path) -> Iterator[MmsEvent]:
@@ -96,9 +176,7 @@ def read_events(path: Path) -> Iterator[MmsEvent]:
     return Listener().events(read_trace(path))
 
 
-def _audit(
-    trace: McapTrace, tables: Mapping[str, Mapping[str, Any]], manner: Manner
-) -> tuple[AuditedInput, list[Finding]]:
+def _audit(trace: McapTrace, tables: Tables, manner: Manner) -> tuple[AuditedInput, list[Finding]]:
     begin = time.perf_counter()
     replay = Replay(trace, within_framework(tables), manner.model, manner.variant, exact=manner.exact)
     findings = list(_findings(replay, Path(trace.path)))
@@ -119,11 +197,4 @@ def _findings(replay: Replay, path: Path) -> Iterator[Finding]:
     try:
         yield from replay.run()
     except InputError as error:
-        yield _unreadable(path, error)
-
-
-def _unreadable(path: Path, error: MmsverifyError) -> Finding:
-    return Finding(
-        path=str(path), index=None, time=None, topic=None, vmd=None, severity="error", rule=UNREADABLE,
-        clauses=("R-7.3.1-2",), message=str(error),
-    )  # fmt: skip
+        yield unreadable(path, str(error))

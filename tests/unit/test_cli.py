@@ -224,9 +224,9 @@ def test_audit_passes_its_options_on(engine: Engine) -> None:
     main(["audit", "a.mcap", *options, "--jobs", "3", "--exact"])
     main(["audit", "a.mcap"])
     given: dict[str, object] = {"profile": Path("p.toml"), "model": "vr-template", "variant": "as-written"}
-    given |= {"progress": None, "jobs": 3, "exact": True}
+    given |= {"progress": None, "jobs": 3, "exact": True, "scheduler": None, "resume": None}
     default: dict[str, object] = {"profile": None, "model": None, "variant": "repaired"}
-    default |= {"progress": None, "jobs": 1, "exact": False}
+    default |= {"progress": None, "jobs": None, "exact": False, "scheduler": None, "resume": None}
     assert calls == [{"paths": [Path("a.mcap")], **given}, {"paths": [Path("a.mcap")], **default}]
 
 

@@ -11,9 +11,10 @@ from pathlib import Path
 
 import pytest
 
-from mmsverify.audit.sharing import Done, shared
 from mmsverify.auditing import audit_traces
 from mmsverify.cli import main
+from mmsverify.fleet.processes import shared
+from mmsverify.fleet.tasks import Done
 from mmsverify.resources import traces_dir
 from mmsverify.results import AuditedInput
 
@@ -46,14 +47,15 @@ def refuses(path: Path) -> Done:
 
 def test_a_killed_process_takes_nothing_with_it(tmp_path: Path) -> None:
     paths = [tmp_path / str(number) for number in range(12)]
-    done = shared(once_killed, paths, 2)
-    assert [each.path if each else None for each, _ in done] == [str(path) for path in paths]
+    done = [*shared(once_killed, paths, jobs=2)]
+    assert sorted(number for number, _ in done) == [*range(12)]
+    assert {number: each.path for number, (each, _) in done if each} == dict(enumerate(map(str, paths)))
 
 
 def test_a_recording_that_kills_its_process_is_told(tmp_path: Path) -> None:
     paths = [tmp_path / str(number) for number in range(6)]
-    done = shared(always_killed, paths, 2)
-    assert [each is None for each, _ in done] == [number == 3 for number in range(6)]
+    done = dict(shared(always_killed, paths, jobs=2))
+    assert [done[number][0] is None for number in range(6)] == [number == 3 for number in range(6)]
     [finding] = done[3][1]
     assert finding.rule == "input.unreadable"
     assert "was killed" in finding.message
@@ -61,7 +63,7 @@ def test_a_recording_that_kills_its_process_is_told(tmp_path: Path) -> None:
 
 def test_an_error_of_a_task_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="0"):
-        shared(refuses, [tmp_path / "0"], 2)
+        [*shared(refuses, [tmp_path / "0"], jobs=2)]
 
 
 def test_two_processes_find_what_one_finds(tmp_path: Path) -> None:
@@ -99,12 +101,12 @@ def test_processes_end_with_the_one_that_started_them(tmp_path: Path) -> None:
     script.write_text(
         "import os, sys, time\n"
         "from pathlib import Path\n"
-        "from mmsverify.audit.sharing import shared\n"
+        "from mmsverify.fleet.processes import shared\n"
         "def task(path):\n"
         "    print(os.getpid(), flush=True)\n"
         "    time.sleep(60)\n"
         "if __name__ == '__main__':\n"
-        "    shared(task, [Path('a'), Path('b')], 2)\n"
+        "    [*shared(task, [Path('a'), Path('b')], jobs=2)]\n"
     )
     with subprocess.Popen([sys.executable, script], stdout=subprocess.PIPE, text=True) as parent:
         assert parent.stdout is not None
