@@ -150,6 +150,8 @@ def _engine(
 
         workers = min(sharing.jobs or os.cpu_count() or 1, max(len(paths), 1))
         with cluster.connected(sharing.scheduler, workers) as client:
+            if progress is not None and not client.nthreads():
+                progress(f"waiting for workers of {sharing.scheduler}")
             yield partial(cluster.shared, client=client)
     elif (jobs := sharing.jobs or 1) > 1 and len(paths) > 1:
         from mmsverify.fleet import processes

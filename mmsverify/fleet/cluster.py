@@ -1,9 +1,9 @@
 """The engine of a Dask cluster: its workers audit, one recording a task.
 
-The only module that needs ``distributed``, which the extra ``dask`` installs. The workers need mmsverify, in
-the same version, and must see the recordings at the same paths. What a worker was at when it died is done
-again by Dask; a recording under which that happens too often is tried once more by itself, and if it kills
-the process then, too, it is told as one that cannot be read.
+The only module that needs ``distributed``, which the extra ``dask`` installs. Scheduler and workers need
+mmsverify, in the same version, and the workers must see the recordings at the same paths. What a worker was
+at when it died is done again by Dask; a recording under which that happens too often is tried once more by
+itself, and if it kills the process then, too, it is told as one that cannot be read.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from concurrent.futures import CancelledError
 from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -31,7 +32,8 @@ __all__ = ["Client", "connected", "shared"]
 LOCAL = "local"
 PATIENCE = 5
 """Seconds that a scheduler has to answer."""
-CHATTY = ("distributed", "tornado", "asyncio")
+CHATTY = {"distributed", "tornado", "asyncio"}
+"""Who logs what happens to a cluster."""
 EXTRA = "pip install 'mmsverify[dask]'"
 _alone = threading.Lock()
 """Held while a task is done: the threads of a worker would only hinder one another."""
@@ -59,6 +61,7 @@ def connected(scheduler: str, workers: int) -> Iterator[Client]:
 
 def shared(task: Task, paths: Sequence[Path], *, client: Client) -> Iterator[tuple[int, Done]]:
     """The engine, with the workers of that client's cluster; it waits as long as there are none."""
+    _require_able(client)
     suspects: list[int] = []
     yield from _round(task, paths, range(len(paths)), client, suspects)
     for suspect in suspects:
@@ -66,6 +69,21 @@ def shared(task: Task, paths: Sequence[Path], *, client: Client) -> Iterator[tup
         yield from _round(task, paths, [suspect], client, again)
         if again:
             yield suspect, killed(paths[suspect])
+
+
+def _require_able(client: Client) -> None:
+    """A worker that cannot take a task in ends, and the next one, too: that would be waited for for ever."""
+    if client.asynchronous:
+        raise UsageError("is asynchronous", place="client", cure="give one that is not")
+    answers = client.run(import_module, "mmsverify.auditing", on_error="return").values()
+    for missing in (answer for answer in answers if isinstance(answer, ImportError)):
+        raise _unable(client, missing)
+
+
+def _unable(client: Client, missing: ImportError) -> UsageError:
+    cause = f"the cluster cannot import what an audit needs: {missing}"
+    cure = f"install mmsverify {__version__} where its scheduler and its workers run"
+    return UsageError(cause, place=_address(client), cure=cure)
 
 
 def _round(
@@ -80,7 +98,7 @@ def _round(
     running = dict(zip(futures, numbers, strict=True))
     del futures  # a result is let go of where it was made as soon as it is here
     try:
-        for future in as_completed(list(running)):
+        for future in as_completed(list(running), loop=client.loop):
             number = running.pop(future)
             try:
                 yield number, _named(_result(future, client), paths[number])
@@ -96,10 +114,11 @@ def _result(future: Future, client: Client) -> Done:
     except CancelledError:
         cause = "the scheduler, or the connection to it, is gone"
         raise UsageError(cause, place=_address(client), cure="start it, and the audit, again") from None
-    except ImportError as error:
-        cause = f"a worker cannot import what an audit needs: {error}"
-        cure = f"install mmsverify {__version__} where the workers run"
-        raise UsageError(cause, place=_address(client), cure=cure) from None
+    except (ImportError, RuntimeError) as error:  # a scheduler that cannot import tells it as the second
+        missing = error if isinstance(error, ImportError) else error.__cause__
+        if not isinstance(missing, ImportError):
+            raise
+        raise _unable(client, missing) from None
     return result
 
 
@@ -194,7 +213,9 @@ def _local(workers: int) -> Iterator[object]:
 @contextmanager
 def _silence() -> Iterator[None]:
     """Dask tells of workers that come, go and die; what matters of that is in the results."""
-    loggers = [logging.getLogger(name) for name in CHATTY]
+    # Some below these have levels of their own.
+    names = [*CHATTY, *(name for name in logging.root.manager.loggerDict if name.split(".")[0] in CHATTY)]
+    loggers = [logging.getLogger(name) for name in dict.fromkeys(names)]
     levels = [logger.level for logger in loggers]
     for logger in loggers:
         logger.setLevel(logging.CRITICAL)

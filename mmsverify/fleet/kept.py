@@ -82,7 +82,7 @@ class Kept:
         try:
             document = json.loads(self._place(about).read_text(encoding="ascii"))
             return _put_back(document) if about.items() <= document.items() else None
-        except (OSError, ValueError, TypeError, KeyError, AttributeError):
+        except (OSError, ValueError, TypeError, KeyError, AttributeError, RecursionError):
             return None  # not there, or not whole: a file system that broke down keeps no promises
 
     def _keep(self, about: Mapping[str, Any], done: Done) -> None:
