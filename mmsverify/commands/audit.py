@@ -12,12 +12,12 @@ from mmsverify.commands.options import Output, Profile, Quiet, Variant
 from mmsverify.commands.output import emit, progress, remark, require_writable
 from mmsverify.commands.paths import input_paths
 from mmsverify.errors import InputError, UsageError
+from mmsverify.fleet.tasks import LOCAL, UNREADABLE
 from mmsverify.report import AUDIT_FORMATS, render_audit, require_format
 from mmsverify.report.wording import counted
 from mmsverify.results import Audit, AuditedInput, Finding
 
-UNREADABLE = "input.unreadable"
-PROCESSES, DASK, LOCAL = "processes", "dask", "local"
+PROCESSES, DASK = "processes", "dask"
 ENGINES = (PROCESSES, DASK)
 FORMATS = (*AUDIT_FORMATS, PARQUET)
 Options = dict[str, Any]

@@ -22,21 +22,20 @@ from typing import TYPE_CHECKING
 
 from mmsverify import __version__
 from mmsverify.errors import UsageError
-from mmsverify.fleet.tasks import Done, Task, killed
+from mmsverify.fleet.tasks import LOCAL, Done, Task, killed
 
 if TYPE_CHECKING:
     from distributed import Client, Future
 
 __all__ = ["Client", "connected", "shared"]
 
-LOCAL = "local"
 PATIENCE = 5
 """Seconds that a scheduler has to answer."""
 CHATTY = {"distributed", "tornado", "asyncio"}
 """Who logs what happens to a cluster."""
 EXTRA = "pip install 'mmsverify[dask]'"
 _alone = threading.Lock()
-"""Held while a task is done: the threads of a worker would only hinder one another."""
+"""Held while a task is done: threads would hinder one another, and a model is loaded by one alone."""
 
 
 @contextmanager
@@ -52,7 +51,7 @@ def connected(scheduler: str, workers: int) -> Iterator[Client]:
         raise UsageError("Dask needs distributed", cure=EXTRA) from error
     with _silence():
         if scheduler == LOCAL:
-            with _local(workers) as cluster, distributed.Client(cluster) as client:
+            with _local(workers) as cluster, distributed.Client(cluster, set_as_default=False) as client:
                 yield client
         else:
             with _client(scheduler) as client:

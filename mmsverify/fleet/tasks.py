@@ -11,6 +11,9 @@ from mmsverify.results import AuditedInput, Finding
 UNREADABLE = "input.unreadable"
 """The rule of a file that is no recording, or of the point at which one cannot be read on."""
 
+LOCAL = "local"
+"""In the place of a scheduler's address: a cluster of this machine, for one audit."""
+
 Done = tuple[AuditedInput | None, list[Finding]]
 """How a recording was read (``None``: not at all), and what was found in it."""
 Task = Callable[[Path], Done]
