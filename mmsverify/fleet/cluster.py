@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING
 
 from mmsverify import __version__
 from mmsverify.errors import UsageError
+from mmsverify.fleet.interrupts import held_back
 from mmsverify.fleet.tasks import LOCAL, Done, Task, killed
 
 if TYPE_CHECKING:
@@ -197,7 +198,7 @@ def _local(workers: int) -> Iterator[object]:
 
     silent = {"distributed.nanny.pre-spawn-environ.DASK_LOGGING__DISTRIBUTED": "critical"}
     try:
-        with dask.config.set(silent):
+        with held_back(), dask.config.set(silent):
             cluster = LocalCluster(
                 n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0,
                 dashboard_address=None, silence_logs=logging.CRITICAL,

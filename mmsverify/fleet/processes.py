@@ -16,6 +16,7 @@ from multiprocessing import connection, get_context, parent_process
 from pathlib import Path
 
 from mmsverify.errors import UsageError
+from mmsverify.fleet.interrupts import end_quietly, held_back
 from mmsverify.fleet.tasks import Done, Task, killed
 
 
@@ -42,9 +43,14 @@ def _round(
     pool = ProcessPoolExecutor(
         min(jobs, len(numbers)), mp_context=get_context("spawn"), initializer=_end_with_parent
     )
+
+    def submit(number: int) -> Future[Done]:
+        with held_back():  # this may start a process
+            return pool.submit(task, paths[number])
+
     try:
         _require_start(pool)
-        yield from _until_broken(lambda number: pool.submit(task, paths[number]), numbers, 2 * jobs, broken)
+        yield from _until_broken(submit, numbers, 2 * jobs, broken)
     finally:
         pool.shutdown(cancel_futures=True)
 
@@ -72,7 +78,8 @@ def _until_broken(
 
 
 def _end_with_parent() -> None:
-    """Let a process end when the one that started it is gone, however that went."""
+    """Let a process end when the one that started it is gone or interrupted, however that went."""
+    end_quietly()
     parent = parent_process()
     assert parent is not None
 
@@ -86,7 +93,9 @@ def _end_with_parent() -> None:
 def _require_start(pool: ProcessPoolExecutor) -> None:
     """Tell processes that cannot even start from those that a recording kills."""
     try:
-        pool.submit(int).result()
+        with held_back():
+            started = pool.submit(int)
+        started.result()
     except BrokenProcessPool:
         cure = "in a script, call it under if __name__ == '__main__'; or use one process"
         raise UsageError("other processes cannot be started", place="jobs", cure=cure) from None

@@ -11,6 +11,7 @@ import pytest
 from fleets import SAMPLES, entry, timeless
 from report_samples import SELECT, START, UNREADABLE
 
+from mmsverify.auditing import audit_traces
 from mmsverify.cli import main
 from mmsverify.errors import UsageError
 from mmsverify.fleet import kept
@@ -148,6 +149,14 @@ def test_a_folder_that_cannot_be_written_is_refused(folder: Path, traces: list[P
     folder.rmdir()
     with pytest.raises(UsageError, match="cannot be written: No such file"):
         list(store.around(here)(lambda path: (entry(path), []), traces))
+
+
+def test_a_profile_that_was_changed_is_another_manner(folder: Path, tmp_path: Path) -> None:
+    profile = tmp_path / "robot.toml"
+    for text in ("", "# the same\n", "[mms-robot]\nnest = 3\n"):
+        profile.write_text(text)
+        audit_traces([SAMPLES[0]], profile=profile, model=None, resume=folder)
+    assert len([*folder.glob("*.json")]) == 2
 
 
 def test_the_command_line_resumes(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -111,7 +111,9 @@ def alone(fleet: Path) -> object:
 
 def run(fleet: Path, *options: str) -> subprocess.Popen[str]:
     command = [sys.executable, "-m", "mmsverify", "audit", str(fleet), "--format", "json", *options]
-    return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    return subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
 
 
 def finished(kept: Path, count: int) -> None:
@@ -151,3 +153,16 @@ def test_a_run_that_was_killed_goes_on_where_it_was(
     assert timeless(out) == alone
     assert {path: path.stat().st_mtime_ns for path in before} == before
     assert len([*kept.glob("*.json")]) == 39
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="no group of processes to interrupt there")
+@pytest.mark.parametrize("engine", [[], ["--engine", "dask"]])
+def test_an_interrupt_of_all_processes_ends_them_without_a_word(
+    engine: list[str], fleet: Path, tmp_path: Path
+) -> None:
+    with run(fleet, "--jobs", "2", *engine, "--resume", str(tmp_path / "kept")) as process:
+        finished(tmp_path / "kept", 2)
+        os.killpg(process.pid, signal.SIGINT)
+        out, err = process.communicate()
+    assert (process.returncode, out, err) == (130, "", "")
