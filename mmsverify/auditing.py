@@ -125,12 +125,15 @@ def _results(
     paths: Sequence[Path], manner: Manner, sharing: Sharing, progress: Callable[[str], None] | None
 ) -> Iterator[tuple[int, Done]]:
     """The numbers of the paths with their results, as they come."""
-    with _engine(paths, sharing, progress) as engine:
-        if sharing.resume is not None:
-            from mmsverify.fleet.kept import Kept
+    task = partial(audit_trace, manner=manner)
+    kept = None
+    if sharing.resume is not None:
+        from mmsverify.fleet.kept import Kept
 
-            engine = Kept(sharing.resume, manner).around(engine)
-        for count, result in enumerate(engine(partial(audit_trace, manner=manner), paths), start=1):
+        kept = Kept(sharing.resume, manner)  # refused, if it must be, before workers are begun
+    with _engine(paths, sharing, progress) as engine:
+        does = engine if kept is None else kept.around(engine)
+        for count, result in enumerate(does(task, paths), start=1):
             if progress is not None and len(paths) > 1:
                 progress(f"audited {count} of {len(paths)}")
             yield result
