@@ -5,45 +5,65 @@ Each recording is replayed device by device, event by event; a file that cannot 
 
 from __future__ import annotations
 
+import os
 import time
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any
 
 from mmsverify.audit.annotate import annotate
-from mmsverify.audit.kept import of_thread
+from mmsverify.audit.lasting import of_thread
 from mmsverify.audit.replay import Replay
 from mmsverify.audit.spoken import Listener
-from mmsverify.audit.watching import FETCHING, Stages, Watcher, stage
-from mmsverify.errors import InputError, MmsverifyError, ProfileError
+from mmsverify.errors import InputError, ProfileError
 from mmsverify.events import MmsEvent
+from mmsverify.fleet.tasks import Done, Engine, Task, here, unreadable
 from mmsverify.formats.locations import Location, Url, located
 from mmsverify.formats.mcap import McapTrace, read_trace
-from mmsverify.profiles import for_recording, load_profile, within_framework
+from mmsverify.formats.passing import FETCHING, Stages, Watcher, stage
+from mmsverify.profiles import from_metadata, load_profile, within_framework
 from mmsverify.results import Audit, AuditedInput, Finding
 
-__all__ = ["annotate", "audit_traces", "read_events"]
+if TYPE_CHECKING:
+    from mmsverify.fleet.cluster import Client
 
-UNREADABLE = "input.unreadable"
-"""The rule of a file that is no recording, or of the point at which one cannot be read on."""
+__all__ = ["annotate", "audit_each", "audit_traces", "read_events"]
+
+Tables = Mapping[str, Mapping[str, Any]]
 
 
 @dataclass(frozen=True, slots=True)
 class Manner:
-    """How recordings are to be audited.
+    """How recordings are to be audited: all that a result depends on, beside the recording and the program.
 
-    ``exact``: each message is judged by itself, and not by what was learned from those before: slow, and the
-    same findings. ``kernel``: whether compiled loops (extra ``fast``) follow what was learned; ``None``:
-    where they are installed and the recording is long.
+    ``tables``: the profile, read once; ``given``: it was asked for, and what a recording says of itself does
+    not count. ``exact``: each message is judged by itself, and not by what was learned from those before:
+    slow, and the same findings. ``kernel``: whether compiled loops (extra ``fast``) follow what was learned;
+    ``None``: where they are installed and the recording is long.
     """
 
-    profile: Path | None = None
+    tables: Tables
+    given: bool
     model: str | None = None
     variant: str = "repaired"
     exact: bool = False
     kernel: bool | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Sharing:
+    """Who does the work: so many processes, or a Dask cluster, by its address or by a client of it.
+
+    ``resume``: the folder in which finished results are kept.
+    """
+
+    jobs: int | None = None
+    scheduler: str | None = None
+    client: Client | None = None
+    resume: Path | None = None
 
 
 def audit_traces(
@@ -55,55 +75,123 @@ def audit_traces(
     progress: Watcher | None = None,
     exact: bool = False,
     kernel: bool | None = None,
-    jobs: int = 1,
+    jobs: int | None = None,
+    scheduler: str | None = None,
+    client: Client | None = None,
+    resume: Path | None = None,
 ) -> Audit:
     """Replay every trace against its model. An unreadable file is a finding; the others are audited.
 
     A string such as ``s3://bucket/x.mcap`` is the URL of one file, which fsspec opens (extra ``remote``).
-    ``exact`` as in `Manner`; ``jobs``: so many processes share the work. The result is the same.
-    """
-    manner = Manner(profile, model, variant, exact, kernel)
-    load_profile(profile)  # a bad one is told before any work is done
-    locations = [located(path) for path in paths]
-    if jobs > 1 and len(paths) > 1:
-        from mmsverify.audit.sharing import shared
+    ``exact`` and ``kernel`` as in `Manner`. ``jobs``: so many processes share the work. ``scheduler``: the
+    workers of a Dask cluster do, that of this address, or with ``local`` one of ``jobs`` processes (without:
+    one a core), which ends with the audit; ``client``: those of the cluster that a ``distributed.Client`` is
+    connected to.
+    ``resume``: a folder where the results of finished recordings are kept; an audit that was broken off goes
+    on from there. The result is the same, whoever does the work and in whatever order.
 
-        told = None if progress is None else lambda _: progress.finish()
-        # A URL stands for a path there: it is passed on and shown, no more.
-        done = shared(partial(audit_trace, manner=manner), cast("list[Path]", locations), jobs, told)
-    else:
-        done = [_announced(location, manner, progress) for location in locations]
+    Raises :class:`ProfileError` for a bad profile, :class:`UsageError` for a scheduler that does not answer,
+    workers that cannot be started, a folder that is not for results.
+    """
+    manner = _manner(profile, model, variant, exact=exact, kernel=kernel)
+    sharing = Sharing(jobs, scheduler, client, resume)
+    done = dict(_results(paths, manner, sharing, progress))
     inputs: list[AuditedInput] = []
     findings: list[Finding] = []
-    for entry, found in done:
+    for number in range(len(paths)):
+        entry, found = done.pop(number)
         inputs += [entry] if entry is not None else []
         findings += found
     return Audit(inputs, findings)
 
 
-def _announced(
-    path: Location, manner: Manner, progress: Watcher | None
-) -> tuple[AuditedInput | None, list[Finding]]:
-    if progress is None:
-        return audit_trace(path, manner)
-    progress.begin(path)
-    done = audit_trace(path, manner, progress.passed)
-    progress.finish()
-    return done
+def audit_each(
+    paths: Sequence[str | Path | Url],
+    *,
+    profile: Path | None,
+    model: str | None,
+    variant: str = "repaired",
+    progress: Watcher | None = None,
+    exact: bool = False,
+    kernel: bool | None = None,
+    jobs: int | None = None,
+    scheduler: str | None = None,
+    client: Client | None = None,
+    resume: Path | None = None,
+) -> Iterator[Audit]:
+    """The same, an `Audit` a recording, as they come: no more than what is under way is held in memory."""
+    manner = _manner(profile, model, variant, exact=exact, kernel=kernel)
+    sharing = Sharing(jobs, scheduler, client, resume)
+    results = _results(paths, manner, sharing, progress)
+    return (Audit([] if entry is None else [entry], found) for _, (entry, found) in results)
 
 
-def audit_trace(
-    path: Location, manner: Manner, passed: Stages | None = None
-) -> tuple[AuditedInput | None, list[Finding]]:
+def _manner(
+    profile: Path | None, model: str | None, variant: str, *, exact: bool, kernel: bool | None
+) -> Manner:
+    return Manner(load_profile(profile), profile is not None, model, variant, exact, kernel)
+
+
+def _results(
+    paths: Sequence[str | Path | Url], manner: Manner, sharing: Sharing, progress: Watcher | None
+) -> Iterator[tuple[int, Done]]:
+    """The numbers of the paths with their results, as they come."""
+    task = partial(audit_trace, manner=manner)
+    locations = [located(path) for path in paths]
+    kept = None
+    if sharing.resume is not None:
+        from mmsverify.fleet.kept import Kept
+
+        kept = Kept(sharing.resume, manner)  # refused, if it must be, before workers are begun
+    with _engine(len(locations), sharing, progress) as engine:
+        yield from (engine if kept is None else kept.around(engine))(task, locations)
+
+
+@contextmanager
+def _engine(count: int, sharing: Sharing, progress: Watcher | None) -> Iterator[Engine]:
+    """Who does the work. What the engines of several processes need is loaded where they are asked for."""
+    if sharing.client is not None:
+        from mmsverify.fleet import cluster
+
+        yield _announcing(partial(cluster.shared, client=sharing.client), progress)
+    elif sharing.scheduler is not None:
+        from mmsverify.fleet import cluster
+
+        workers = min(sharing.jobs or os.cpu_count() or 1, max(count, 1))
+        with cluster.connected(sharing.scheduler, workers) as client:
+            if progress is not None and not client.nthreads():
+                progress.wait(f"waiting for workers of {sharing.scheduler}")
+            yield _announcing(partial(cluster.shared, client=client), progress)
+    elif (jobs := sharing.jobs or 1) > 1 and count > 1:
+        from mmsverify.fleet import processes
+
+        yield _announcing(partial(processes.shared, jobs=jobs), progress)
+    else:
+        yield partial(here, progress=progress)
+
+
+def _announcing(engine: Engine, progress: Watcher | None) -> Engine:
+    """The same engine, which tells what is done."""
+
+    def run(task: Task, paths: Sequence[Location]) -> Iterator[tuple[int, Done]]:
+        for result in engine(task, paths):
+            if progress is not None:
+                progress.finish()
+            yield result
+
+    return run
+
+
+def audit_trace(path: Location, passed: Stages | None = None, *, manner: Manner) -> Done:
     """Replay one trace; of one that cannot be read there is a finding that says so, and nothing else."""
     try:
         trace = read_trace(path, fetched=stage(FETCHING, passed))
-        tables = for_recording(manner.profile, trace.profile, str(path))
-        return _audit(trace, tables, manner, passed)
+        said = {} if manner.given else from_metadata(trace.profile, str(path))
+        return _audit(trace, {**manner.tables, **said}, manner, passed)
     except (InputError, ProfileError) as error:
-        if manner.profile is not None and isinstance(error, ProfileError):
+        if manner.given and isinstance(error, ProfileError):
             raise
-        return None, [_unreadable(str(path), error)]
+        return None, [unreadable(str(path), str(error))]
 
 
 def read_events(path: str | Path | Url) -> Iterator[MmsEvent]:
@@ -112,7 +200,7 @@ def read_events(path: str | Path | Url) -> Iterator[MmsEvent]:
 
 
 def _audit(
-    trace: McapTrace, tables: Mapping[str, Mapping[str, Any]], manner: Manner, passed: Stages | None
+    trace: McapTrace, tables: Tables, manner: Manner, passed: Stages | None
 ) -> tuple[AuditedInput, list[Finding]]:
     begin = time.perf_counter()
     replay = Replay(
@@ -121,7 +209,7 @@ def _audit(
         manner.model,
         manner.variant,
         exact=manner.exact,
-        kept=None if manner.exact else of_thread(),
+        lasting=None if manner.exact else of_thread(),
         kernel=manner.kernel,
         passed=passed,
     )
@@ -143,11 +231,4 @@ def _findings(replay: Replay, path: str) -> Iterator[Finding]:
     try:
         yield from replay.run()
     except InputError as error:
-        yield _unreadable(path, error)
-
-
-def _unreadable(path: str, error: MmsverifyError) -> Finding:
-    return Finding(
-        path=path, index=None, time=None, topic=None, vmd=None, severity="error", rule=UNREADABLE,
-        clauses=("R-7.3.1-2",), message=str(error),
-    )  # fmt: skip
+        yield unreadable(path, str(error))

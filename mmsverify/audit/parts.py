@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import Any
 
 from mmsverify.audit.device import Device
-from mmsverify.audit.kept import Kept
+from mmsverify.audit.lasting import Lasting
 from mmsverify.audit.modbus import Access, Plan, Server
 from mmsverify.audit.tables import Tables as LearnedTables
 from mmsverify.audit.telling import History, Place
@@ -28,14 +28,16 @@ Tables = Mapping[str, Mapping[str, Any]]
 
 
 class Parts:
-    """Makes them. ``kept`` is what was made for other recordings; ``path`` names the recording in errors."""
+    """Makes them. ``lasting`` is what was made for other recordings; ``path`` is named in errors."""
 
-    def __init__(self, tables: Tables, variant: str, kept: Kept, path: str) -> None:
-        self._tables, self._variant, self._kept, self._path = tables, variant, kept, path
+    def __init__(self, tables: Tables, variant: str, lasting: Lasting, path: str) -> None:
+        self._tables, self._variant, self._lasting, self._path = tables, variant, lasting, path
         self.profile = tables.get(ROBOT, {})
 
     def _load(self, name: str) -> ModelData:
-        return self._kept.get(("model", name, self._variant), lambda: load(name, models_dir(), self._variant))
+        return self._lasting.get(
+            ("model", name, self._variant), lambda: load(name, models_dir(), self._variant)
+        )
 
     # Robots.
 
@@ -48,7 +50,7 @@ class Parts:
     def robot_tables(self) -> LearnedTables:
         """What was learned of robots under this profile."""
         # The model is part of what is kept: no other one can have its identity.
-        _, tables = self._kept.get(
+        _, tables = self._lasting.get(
             ("learned", id(self.model), repr(self.profile)),
             lambda: (self.model, LearnedTables(self.model, Device.SHARED)),
         )
@@ -103,7 +105,7 @@ class Parts:
     @cached_property
     def _framework(self) -> tuple[Scans, Numbering, LearnedTables]:
         profile = self._tables.get(FRAMEWORK, {})
-        return self._kept.get(("framework", self._variant, repr(profile)), lambda: self._made(profile))
+        return self._lasting.get(("framework", self._variant, repr(profile)), lambda: self._made(profile))
 
     def _made(self, profile: Mapping[str, Any]) -> tuple[Scans, Numbering, LearnedTables]:
         """The template framework's automaton, what its numbers mean, and tables that are empty yet."""

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from mmsverify.audit.classes import split, whole
 from mmsverify.audit.device import Device
-from mmsverify.audit.kept import Kept
+from mmsverify.audit.lasting import Lasting
 from mmsverify.audit.learned import Learned, Listener, Span
 from mmsverify.audit.lookahead import INITIATES, Lookahead, association, link, offers_additional
 from mmsverify.audit.modbus import Server
@@ -19,11 +19,10 @@ from mmsverify.audit.parts import FRAMEWORK, ROBOT, SIGNALS, Parts, Tables
 from mmsverify.audit.telling import History, Place
 from mmsverify.audit.vr import Controller
 from mmsverify.audit.walk import Walk
-from mmsverify.audit.watching import AUDITING, LOOKING, Stages, stage
 from mmsverify.concrete.belief.coverage import Coverage
 from mmsverify.errors import InputError, UsageError
 from mmsverify.formats.mcap import McapTrace
-from mmsverify.formats.passing import Tick
+from mmsverify.formats.passing import AUDITING, LOOKING, Stages, Tick, stage
 from mmsverify.formats.stretch import DisorderError, Stretch
 from mmsverify.formats.trace import Channel, TraceMessage
 from mmsverify.results import Finding
@@ -46,7 +45,7 @@ class Replay:
     """One recording under a profile.
 
     ``exact``: every message is judged by itself, and nothing is learned from those before; the findings are
-    the same. ``kept``: what has been loaded and learned for other recordings. ``kernel``: whether compiled
+    the same. ``lasting``: what has been loaded and learned for other recordings. ``kernel``: whether compiled
     loops follow what was learned; where nothing is said, if they are installed and the recording is long.
     ``passed`` is told how far it is. ``messages``, ``events`` and ``skipped`` are counts, true once the run
     is over; ``coverage`` is what the events of each device have exercised, as far as they were not known.
@@ -60,13 +59,13 @@ class Replay:
         variant: str,
         *,
         exact: bool = False,
-        kept: Kept | None = None,
+        lasting: Lasting | None = None,
         kernel: bool | None = None,
         passed: Stages | None = None,
     ) -> None:
         self.trace = trace
-        self._kept = kept or Kept()
-        self.parts = Parts(tables, variant, self._kept, trace.path)
+        self._lasting = lasting or Lasting()
+        self.parts = Parts(tables, variant, self._lasting, trace.path)
         self._exact, self._asked = exact, _known(model)
         self._ahead: Lookahead | None = None
         self._merged = False
@@ -89,7 +88,7 @@ class Replay:
                     cure="pip install 'mmsverify[fast]'",
                 ) from None
             return Walk()
-        return Kernel(self._kept.get("mirror", Mirror))
+        return Kernel(self._lasting.get("mirror", Mirror))
 
     def _begin(self) -> None:
         self.messages = self.events = self.skipped = 0

@@ -3,45 +3,83 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
 from mmsverify.commands.bar import audit_bar
+from mmsverify.commands.dataset import PARQUET, Dataset
 from mmsverify.commands.options import Output, Profile, Quiet, Variant
 from mmsverify.commands.output import emit, remark, require_writable
 from mmsverify.commands.paths import trace_locations
 from mmsverify.errors import InputError, UsageError
+from mmsverify.fleet.tasks import LOCAL, UNREADABLE
 from mmsverify.formats.locations import Location, local
 from mmsverify.report import AUDIT_FORMATS, render_audit, require_format
-from mmsverify.results import Audit
+from mmsverify.report.wording import counted
+from mmsverify.results import Audit, AuditedInput, Finding
 
-UNREADABLE = "input.unreadable"
+PROCESSES, DASK = "processes", "dask"
+ENGINES = (PROCESSES, DASK)
+FORMATS = (*AUDIT_FORMATS, PARQUET)
+Options = dict[str, Any]
+"""What is passed on to the audit."""
+
+
+Traces = Annotated[
+    list[str], typer.Argument(metavar="TRACE", help="MCAP files, folders of them, or patterns; also URLs.")
+]
+ModelName = Annotated[
+    str | None,
+    typer.Option("--model", metavar="NAME", help="Judge by this model, whatever the trace says."),
+]
+Format = Annotated[
+    str,
+    typer.Option("--format", metavar="|".join(FORMATS), help=f"{PARQUET}: a folder of files, with -o DIR."),
+]
+Annotate = Annotated[
+    Path | None,
+    typer.Option("--annotate", metavar="OUT.mcap", help="Copy the trace with its violations added."),
+]
+Jobs = Annotated[
+    int | None,
+    typer.Option("--jobs", metavar="N", min=1, max=256, help="So many processes share the traces."),
+]
+Engine = Annotated[
+    str,
+    typer.Option("--engine", metavar="|".join(ENGINES), help="Who shares them; dask: a cluster's workers."),
+]
+Scheduler = Annotated[
+    str | None,
+    typer.Option(
+        "--scheduler", metavar="ADDRESS|local", help="The cluster's, or local: one of --jobs processes."
+    ),
+]
+Resume = Annotated[
+    Path | None,
+    typer.Option("--resume", metavar="DIR", help="Keep results in DIR; go on from there after a break."),
+]
+Exact = Annotated[bool, typer.Option("--exact", help="Judge each message anew: slow, and the same findings.")]
+Compiled = Annotated[
+    bool | None,
+    typer.Option("--kernel/--no-kernel", help="Compiled loops (extra fast), or none; else for long traces."),
+]
 
 
 def audit(
-    traces: Annotated[
-        list[str],
-        typer.Argument(metavar="TRACE", help="MCAP files, folders of them, or patterns; also URLs."),
-    ],
+    traces: Traces,
     *,
     profile: Profile = None,
-    model: Annotated[
-        str | None,
-        typer.Option("--model", metavar="NAME", help="Judge by this model, whatever the trace says."),
-    ] = None,
+    model: ModelName = None,
     variant: Variant = "repaired",
-    format: Annotated[str, typer.Option("--format", metavar="|".join(AUDIT_FORMATS))] = "text",
-    annotate: Annotated[
-        Path | None,
-        typer.Option("--annotate", metavar="OUT.mcap", help="Copy the trace with its violations added."),
-    ] = None,
-    jobs: Annotated[
-        int, typer.Option("--jobs", metavar="N", min=1, max=256, help="So many processes share the traces.")
-    ] = 1,
-    exact: Annotated[
-        bool, typer.Option("--exact", help="Judge each message anew: slow, and the same findings.")
-    ] = False,
+    format: Format = "text",
+    annotate: Annotate = None,
+    jobs: Jobs = None,
+    engine: Engine = PROCESSES,
+    scheduler: Scheduler = None,
+    resume: Resume = None,
+    exact: Exact = False,
+    kernel: Compiled = None,
     output: Output = None,
     quiet: Quiet = False,
 ) -> int:
@@ -49,26 +87,81 @@ def audit(
 
     Exit status: 0 no error-level violation, 1 at least one, 2 bad request or nothing could be read.
     """
-    require_format(format, AUDIT_FORMATS)
+    require_format(format, FORMATS)
     paths = trace_locations(traces)
-    require_writable(output, local(paths))
     if annotate is not None:
-        _require_one(annotate, paths)
-    from mmsverify.auditing import audit_traces
-
-    with audit_bar(paths, jobs, quiet=quiet) as report:
-        result = audit_traces(
-            paths, profile=profile, model=model, variant=variant, progress=report, exact=exact, jobs=jobs
-        )
-    _require_read(result)
+        _require_one(annotate, paths, format)
+    given: Options = {
+        "profile": profile, "model": model, "variant": variant, "exact": exact, "kernel": kernel,
+        "jobs": jobs, "scheduler": _scheduler(engine, scheduler, jobs), "resume": resume,
+    }  # fmt: skip
+    if format == PARQUET:
+        result = _to_dataset(paths, output, given, quiet=quiet)
+    else:
+        require_writable(output, local(paths))
+        result = _audited(paths, given, quiet=quiet)
+        emit(render_audit(result, format), output)
     if annotate is not None:
         _annotate(paths[0], result, annotate, quiet=quiet)
-    emit(render_audit(result, format), output)
     return int(any(finding.severity == "error" for finding in result.findings))
 
 
-def _require_one(annotate: Path, paths: list[Location]) -> None:
+def _scheduler(engine: str, scheduler: str | None, jobs: int | None) -> str | None:
+    """The address of the cluster that shares the work, ``None``: processes do."""
+    if engine not in ENGINES:
+        raise UsageError(f"no engine {engine!r}", place="--engine", cure=f"one of {', '.join(ENGINES)}")
+    if engine == PROCESSES:
+        if scheduler is not None:
+            raise UsageError(f"is for {DASK}", place="--scheduler", cure=f"add --engine {DASK}")
+        return None
+    if scheduler not in (None, LOCAL) and jobs is not None:
+        cure = f"leave it out, or use --scheduler {LOCAL}"
+        raise UsageError("a cluster has the workers that it has", place="--jobs", cure=cure)
+    return scheduler or LOCAL
+
+
+def _sharing(given: Options) -> int:
+    """How many processes share the recordings; how many a cluster has, nobody need know."""
+    return given["jobs"] or (1 if given["scheduler"] is None else 2)
+
+
+def _audited(paths: list[Location], given: Options, *, quiet: bool) -> Audit:
+    from mmsverify.auditing import audit_traces
+
+    with audit_bar(paths, _sharing(given), quiet=quiet) as report:
+        result = audit_traces(paths, progress=report, **given)
+    _require_read(result)
+    return result
+
+
+def _to_dataset(paths: list[Location], folder: Path | None, given: Options, *, quiet: bool) -> Audit:
+    """Write the results as they come; gives back of the findings those that decide how it ends."""
+    from mmsverify.auditing import audit_each
+
+    inputs: list[AuditedInput] = []
+    kept: list[Finding] = []
+    found = 0
+    with audit_bar(paths, _sharing(given), quiet=quiet) as report:
+        audits = audit_each(paths, progress=report, **given)
+        with Dataset(folder) as dataset:
+            for audit in audits:
+                dataset.add(audit)
+                found += len(audit.findings)
+                inputs += audit.inputs
+                errors = [finding for finding in audit.findings if finding.severity == "error"]
+                kept += [finding for finding in errors if finding.rule == UNREADABLE] or errors[:1]
+    result = Audit(inputs, kept)
+    _require_read(result)
+    remark(f"wrote {folder}: {counted(len(paths), 'recording')}, {counted(found, 'finding')}", quiet=quiet)
+    return result
+
+
+def _require_one(annotate: Path, paths: list[Location], format: str) -> None:
     require_writable(annotate, local(paths))
+    if format == PARQUET:
+        raise UsageError(
+            f"not with --format {PARQUET}", place="--annotate", cure="annotate the trace by itself"
+        )
     if len(paths) != 1:
         raise UsageError(
             f"takes one trace, {len(paths)} given", place="--annotate", cure="annotate them one by one"

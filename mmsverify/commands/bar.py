@@ -13,8 +13,8 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from mmsverify.audit.watching import AUDITING, Watcher
 from mmsverify.formats.locations import Location, Url
+from mmsverify.formats.passing import AUDITING, Watcher
 from mmsverify.formats.remote import size_of
 from mmsverify.report.wording import printable
 
@@ -79,6 +79,10 @@ class Bar:
             self._progress.update(self._task, total=self._total)
         self._name, self._size, self._seen = printable(location.name), size or 0, (0, 0)
         self._progress.update(self._task, description=f"opening {self._name}")
+
+    def wait(self, text: str) -> None:
+        """Nothing can begin yet."""
+        self._progress.update(self._task, description=printable(text))
 
     def passed(self, stage: str, octets: int, messages: int) -> None:
         """How far it is; looking over it counts for nothing yet."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib.util
 import sys
 from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -17,7 +18,8 @@ from mmsverify.model.model import Model, ModelData, assemble
 def load(name_or_path: str, folder: Path, variant: str | None = None) -> ModelData:
     """The model called ``name_or_path`` in ``folder``, or in the file or package at that path.
 
-    Without ``variant``: ``repaired`` where the file has one, else its only variant. Raises
+    Without ``variant``: ``repaired`` where the file has one, else its only variant. Who asks again gets the
+    same model, which nobody may change. Raises
     :class:`ModelError` for a file that is not a model, :class:`UsageError` for a name or variant that does
     not exist.
     """
@@ -28,7 +30,13 @@ def load(name_or_path: str, folder: Path, variant: str | None = None) -> ModelDa
             f"the model {name_or_path} has no variant {wanted}",
             cure=f"use one of {', '.join(sorted(variants))}",
         )
-    return assemble(variants[wanted])
+    return _assembled(variants[wanted])
+
+
+@lru_cache(maxsize=16)
+def _assembled(source: type[Model]) -> ModelData:
+    """The model of a class, put together once for all recordings and checks of a process."""
+    return assemble(source)
 
 
 def made_for(model: ModelData, profile: Mapping[str, Any]) -> ModelData:

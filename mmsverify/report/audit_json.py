@@ -21,18 +21,19 @@ def document(audit: Audit) -> dict[str, Any]:
     counts = tally(audit.findings)
     return {
         "schema": SCHEMA,
-        "inputs": [_input(entry) for entry in audit.inputs],
+        "inputs": [summary(entry) for entry in audit.inputs],
         "summary": {
             "violations": len(audit.findings),
             "errors": counts["error"],
             "warnings": counts["warning"],
             "notes": counts["note"],
         },
-        "violations": [_violation(finding) for finding in ordered(audit.findings)],
+        "violations": [violation(finding) for finding in ordered(audit.findings)],
     }
 
 
-def _input(entry: AuditedInput) -> dict[str, Any]:
+def summary(entry: AuditedInput) -> dict[str, Any]:
+    """How a recording was read."""
     return {
         "path": entry.path,
         "messages": entry.messages,
@@ -43,8 +44,9 @@ def _input(entry: AuditedInput) -> dict[str, Any]:
     }
 
 
-def _violation(finding: Finding) -> dict[str, Any]:
-    violation = {
+def violation(finding: Finding) -> dict[str, Any]:
+    """A finding; ``count`` stands there where it is not 1."""
+    told = {
         "path": finding.path,
         "index": finding.index,
         "time": finding.time,
@@ -60,4 +62,4 @@ def _violation(finding: Finding) -> dict[str, Any]:
         "before": plain(finding.before),
         "related": list(finding.related),
     }
-    return violation | ({"count": finding.count} if finding.count > 1 else {})
+    return told | ({"count": finding.count} if finding.count > 1 else {})

@@ -42,11 +42,12 @@ ALLOWED = {
     "graph": VOCABULARY | {"model", "concrete"},
     "audit": VOCABULARY | {"model", "concrete", "formats"},
     "report": VOCABULARY | {"model"},
+    "fleet": VOCABULARY | {"formats"},
 }
 # The composition roots tie the engines together: they may import all of the above, and the command line them.
 ROOTS = {
     "auditing": ALLOWED.keys() - {"symbolic", "graph", "report"},
-    "explaining": ALLOWED.keys() - {"symbolic", "graph", "report"},
+    "explaining": ALLOWED.keys() - {"symbolic", "graph", "report", "fleet"},
     "timelines": ALLOWED.keys() - {"symbolic", "graph"} | {"auditing"},
     "checking": ALLOWED.keys() - {"graph", "report"},
     "faults": ALLOWED.keys() - {"audit", "graph", "report"} | {"checking"},
@@ -62,6 +63,9 @@ HOMES = {
     "rich": {"commands"},
     "asn1tools": {"formats"},
     "matplotlib": {"report"},
+    "pyarrow": {"report"},
+    "dask": {"fleet"},
+    "distributed": {"fleet"},
     "dpkt": {"formats"},
     "mcap": {"formats"},
     "lz4": {"formats"},

@@ -11,13 +11,12 @@ import fsspec
 import pytest
 from rich.console import Console
 
-from mmsverify.audit.watching import AUDITING, FETCHING, LOOKING
 from mmsverify.auditing import audit_traces
 from mmsverify.cli import main
 from mmsverify.commands.bar import Bar, audit_bar, progress_on
 from mmsverify.formats.locations import Location, Url
 from mmsverify.formats.mcap import TraceWriter, read_trace
-from mmsverify.formats.passing import Tick
+from mmsverify.formats.passing import AUDITING, FETCHING, LOOKING, Tick
 from mmsverify.resources import traces_dir
 
 SAMPLES = sorted(traces_dir().glob("*.mcap"))
@@ -70,6 +69,9 @@ class Watching:
 
     def passed(self, stage: str, octets: int, messages: int) -> None:
         self.heard.append((stage, octets, messages))
+
+    def wait(self, text: str) -> None:
+        raise AssertionError(text)
 
     def finish(self) -> None:
         self.done += 1

@@ -221,12 +221,13 @@ def test_audit_ends_with_1_only_for_an_error(engine: Engine, findings: list[Any]
 def test_audit_passes_its_options_on(engine: Engine) -> None:
     calls = auditing(engine, CLEAN)
     options = ["--profile", "p.toml", "--model", "vr-template", "--variant", "as-written"]
-    main(["audit", "a.mcap", *options, "--jobs", "3", "--exact"])
+    main(["audit", "a.mcap", *options, "--jobs", "3", "--exact", "--no-kernel"])
     main(["audit", "a.mcap"])
     given: dict[str, object] = {"profile": Path("p.toml"), "model": "vr-template", "variant": "as-written"}
-    given |= {"progress": None, "jobs": 3, "exact": True}
+    given |= {"progress": None, "jobs": 3, "exact": True, "kernel": False, "scheduler": None, "resume": None}
     default: dict[str, object] = {"profile": None, "model": None, "variant": "repaired"}
-    default |= {"progress": None, "jobs": 1, "exact": False}
+    default |= {"progress": None, "jobs": None, "exact": False, "kernel": None}
+    default |= {"scheduler": None, "resume": None}
     assert calls == [{"paths": [Path("a.mcap")], **given}, {"paths": [Path("a.mcap")], **default}]
 
 

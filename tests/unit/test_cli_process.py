@@ -42,6 +42,16 @@ except SystemExit as end:
     sys.exit(f"loaded {loaded}" if loaded else end.code)
 """
 
+SHORT = """
+import sys
+from mmsverify.cli import main
+from mmsverify.resources import traces_dir
+status = main(["audit", "-q", str(traces_dir() / "two-clients.mcap")])
+heavy = {"z3", "networkx", "pandas", "numpy", "pyarrow", "asn1tools", "distributed", "multiprocessing"}
+loaded = heavy & set(sys.modules)
+sys.exit(f"loaded {loaded}" if loaded else status)
+"""
+
 
 def started(code: str) -> subprocess.Popen[str]:
     return subprocess.Popen(
@@ -81,3 +91,8 @@ def test_the_module_runs_as_the_command_does_and_help_loads_no_engine() -> None:
     run = subprocess.run([sys.executable, "-c", HELP], capture_output=True, text=True, check=False)
     assert (run.returncode, run.stderr) == (0, "")
     assert run.stdout.startswith("Usage: mmsverify")
+
+
+def test_an_audit_of_a_short_trace_loads_nothing_that_it_does_not_need() -> None:
+    run = subprocess.run([sys.executable, "-c", SHORT], capture_output=True, text=True, check=False)
+    assert (run.returncode, run.stderr) == (1, "")

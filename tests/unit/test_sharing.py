@@ -1,4 +1,7 @@
-"""Many recordings on several processes: the same results, whatever becomes of a process."""
+"""Many recordings on several processes: the same results, whatever becomes of a process.
+
+Those of a Dask cluster are killed here, too, in the middle of a run of the command.
+"""
 
 from __future__ import annotations
 
@@ -10,50 +13,27 @@ import time
 from pathlib import Path
 
 import pytest
+from fleets import always_killed, once_killed, recordings, refuses, timeless, workers
 
-from mmsverify.audit.sharing import Done, shared
 from mmsverify.auditing import audit_traces
 from mmsverify.cli import main
+from mmsverify.fleet.processes import shared
 from mmsverify.resources import traces_dir
-from mmsverify.results import AuditedInput
 
 SAMPLES = sorted(traces_dir().glob("*.mcap"))
 
 
-def entry(path: Path) -> AuditedInput:
-    return AuditedInput(str(path), 1, 1, 0, False, 0.0)
-
-
-def once_killed(path: Path) -> Done:
-    """Kills its process the first time that it sees a certain path."""
-    mark = path.parent / "seen"
-    if path.name == "7" and not mark.exists():
-        mark.touch()
-        os.kill(os.getpid(), signal.SIGKILL)
-    time.sleep(0.01)
-    return entry(path), []
-
-
-def always_killed(path: Path) -> Done:
-    if path.name == "3":
-        os.kill(os.getpid(), signal.SIGKILL)
-    return entry(path), []
-
-
-def refuses(path: Path) -> Done:
-    raise ValueError(path.name)
-
-
 def test_a_killed_process_takes_nothing_with_it(tmp_path: Path) -> None:
     paths = [tmp_path / str(number) for number in range(12)]
-    done = shared(once_killed, paths, 2)
-    assert [each.path if each else None for each, _ in done] == [str(path) for path in paths]
+    done = [*shared(once_killed, paths, jobs=2)]
+    assert sorted(number for number, _ in done) == [*range(12)]
+    assert {number: each.path for number, (each, _) in done if each} == dict(enumerate(map(str, paths)))
 
 
 def test_a_recording_that_kills_its_process_is_told(tmp_path: Path) -> None:
     paths = [tmp_path / str(number) for number in range(6)]
-    done = shared(always_killed, paths, 2)
-    assert [each is None for each, _ in done] == [number == 3 for number in range(6)]
+    done = dict(shared(always_killed, paths, jobs=2))
+    assert [done[number][0] is None for number in range(6)] == [number == 3 for number in range(6)]
     [finding] = done[3][1]
     assert finding.rule == "input.unreadable"
     assert "was killed" in finding.message
@@ -61,7 +41,7 @@ def test_a_recording_that_kills_its_process_is_told(tmp_path: Path) -> None:
 
 def test_an_error_of_a_task_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="0"):
-        shared(refuses, [tmp_path / "0"], 2)
+        [*shared(refuses, [tmp_path / "0"], jobs=2)]
 
 
 def test_two_processes_find_what_one_finds(tmp_path: Path) -> None:
@@ -99,12 +79,12 @@ def test_processes_end_with_the_one_that_started_them(tmp_path: Path) -> None:
     script.write_text(
         "import os, sys, time\n"
         "from pathlib import Path\n"
-        "from mmsverify.audit.sharing import shared\n"
+        "from mmsverify.fleet.processes import shared\n"
         "def task(path):\n"
         "    print(os.getpid(), flush=True)\n"
         "    time.sleep(60)\n"
         "if __name__ == '__main__':\n"
-        "    shared(task, [Path('a'), Path('b')], 2)\n"
+        "    [*shared(task, [Path('a'), Path('b')], jobs=2)]\n"
     )
     with subprocess.Popen([sys.executable, script], stdout=subprocess.PIPE, text=True) as parent:
         assert parent.stdout is not None
@@ -114,3 +94,75 @@ def test_processes_end_with_the_one_that_started_them(tmp_path: Path) -> None:
     while any(Path(f"/proc/{worker}").exists() for worker in workers) and time.monotonic() < deadline:
         time.sleep(0.05)
     assert not any(Path(f"/proc/{worker}").exists() for worker in workers)
+
+
+@pytest.fixture(scope="module")
+def fleet(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("fleet") / "many"
+    recordings(folder, 40)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def alone(fleet: Path) -> object:
+    """The result of one process."""
+    return timeless(run(fleet).communicate()[0])
+
+
+def run(fleet: Path, *options: str) -> subprocess.Popen[str]:
+    command = [sys.executable, "-m", "mmsverify", "audit", str(fleet), "--format", "json", *options]
+    return subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
+    )
+
+
+def finished(kept: Path, count: int) -> None:
+    """Wait until so many recordings are finished."""
+    deadline = time.monotonic() + 60
+    while len([*kept.glob("*.json")]) < count:
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not Path("/proc").is_dir(), reason="looks for processes in /proc")
+@pytest.mark.parametrize("engine", [[], ["--engine", "dask"]])
+def test_a_process_killed_in_the_middle_changes_nothing(
+    engine: list[str], fleet: Path, alone: object, tmp_path: Path
+) -> None:
+    with run(fleet, "--jobs", "2", *engine, "--resume", str(tmp_path / "kept")) as process:
+        finished(tmp_path / "kept", 5)
+        os.kill(workers(process.pid)[0], signal.SIGKILL)
+        out, err = process.communicate()
+    assert (process.returncode, err) == (1, "")
+    assert timeless(out) == alone
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("engine", [[], ["--jobs", "2"], ["--jobs", "2", "--engine", "dask"]])
+def test_a_run_that_was_killed_goes_on_where_it_was(
+    engine: list[str], fleet: Path, alone: object, tmp_path: Path
+) -> None:
+    kept = tmp_path / "kept"
+    with run(fleet, *engine, "--resume", str(kept)) as process:
+        finished(kept, 5)
+        process.kill()
+    before = {path: path.stat().st_mtime_ns for path in kept.glob("*.json")}
+    assert 5 <= len(before) < 39
+    out, _ = run(fleet, *engine, "--resume", str(kept)).communicate()
+    assert timeless(out) == alone
+    assert {path: path.stat().st_mtime_ns for path in before} == before
+    assert len([*kept.glob("*.json")]) == 39
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(sys.platform == "win32", reason="no group of processes to interrupt there")
+@pytest.mark.parametrize("engine", [[], ["--engine", "dask"]])
+def test_an_interrupt_of_all_processes_ends_them_without_a_word(
+    engine: list[str], fleet: Path, tmp_path: Path
+) -> None:
+    with run(fleet, "--jobs", "2", *engine, "--resume", str(tmp_path / "kept")) as process:
+        finished(tmp_path / "kept", 2)
+        os.killpg(process.pid, signal.SIGINT)
+        out, err = process.communicate()
+    assert (process.returncode, out, err) == (130, "", "")

@@ -15,7 +15,7 @@ MOST = 12
 """Things that are kept; a model and its tables are two, for each variant and profile."""
 
 
-class Kept:
+class Lasting:
     """Things by what they depend on; those that were used longest ago make room."""
 
     def __init__(self) -> None:
@@ -33,12 +33,12 @@ class Kept:
 
 class _OfThread(threading.local):
     def __init__(self) -> None:
-        self.kept = Kept()
+        self.lasting = Lasting()
 
 
 _OF_THREAD = _OfThread()
 
 
-def of_thread() -> Kept:
+def of_thread() -> Lasting:
     """What this thread keeps: nothing of it can be used by two at once."""
-    return _OF_THREAD.kept
+    return _OF_THREAD.lasting

@@ -1,4 +1,4 @@
-"""Many recordings on several processes: one recording a task, results in the order of the recordings.
+"""The engine of several processes of this machine.
 
 A process that dies, killed or out of memory, takes nothing with it: what it had not finished is done again,
 and a recording that kills its process alone as well is told as one that cannot be read.
@@ -9,63 +9,58 @@ from __future__ import annotations
 import os
 import threading
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import connection, get_context, parent_process
-from pathlib import Path
 
 from mmsverify.errors import UsageError
-from mmsverify.results import AuditedInput, Finding
+from mmsverify.fleet.interrupts import end_quietly, held_back
+from mmsverify.fleet.tasks import Done, Task, killed
+from mmsverify.formats.locations import Location
 
-Done = tuple[AuditedInput | None, list[Finding]]
-Task = Callable[[Path], Done]
 
-
-def shared(
-    task: Task, paths: Sequence[Path], jobs: int, progress: Callable[[str], None] | None = None
-) -> list[Done]:
-    """The results of a task for each path, in their order."""
-    results: dict[int, Done] = {}
-
-    def finish(number: int, done: Done) -> None:
-        results[number] = done
-        if progress is not None:
-            progress(f"audited {len(results)} of {len(paths)}")
-
-    waiting = list(range(len(paths)))
+def shared(task: Task, paths: Sequence[Location], *, jobs: int) -> Iterator[tuple[int, Done]]:
+    """The engine, with so many processes."""
+    waiting = dict.fromkeys(range(len(paths)))
     while waiting:
-        for suspect in _round(task, paths, waiting, jobs, finish):
-            if _round(task, paths, [suspect], 1, finish):
-                finish(suspect, (None, [_killed(paths[suspect])]))
-        waiting = [number for number in waiting if number not in results]
-    return [results[number] for number in range(len(paths))]
+        suspects: list[int] = []
+        for number, done in _round(task, paths, list(waiting), jobs, suspects):
+            del waiting[number]
+            yield number, done
+        for suspect in suspects:
+            again: list[int] = []
+            yield from _round(task, paths, [suspect], 1, again)
+            if again:
+                yield suspect, killed(paths[suspect])
+            del waiting[suspect]
 
 
 def _round(
-    task: Task, paths: Sequence[Path], numbers: Sequence[int], jobs: int, finish: Callable[[int, Done], None]
-) -> list[int]:
-    """Do these until a process dies; gives those that were under way then."""
+    task: Task, paths: Sequence[Location], numbers: Sequence[int], jobs: int, broken: list[int]
+) -> Iterator[tuple[int, Done]]:
+    """Do these until a process dies; those that were under way then are noted as ``broken``."""
     pool = ProcessPoolExecutor(
         min(jobs, len(numbers)), mp_context=get_context("spawn"), initializer=_end_with_parent
     )
+
+    def submit(number: int) -> Future[Done]:
+        with held_back():  # this may start a process
+            return pool.submit(task, paths[number])
+
     try:
         _require_start(pool)
-        return _until_broken(lambda number: pool.submit(task, paths[number]), numbers, 2 * jobs, finish)
+        yield from _until_broken(submit, numbers, 2 * jobs, broken)
     finally:
         pool.shutdown(cancel_futures=True)
 
 
 def _until_broken(
-    submit: Callable[[int], Future[Done]],
-    numbers: Sequence[int],
-    most: int,
-    finish: Callable[[int, Done], None],
-) -> list[int]:
+    submit: Callable[[int], Future[Done]], numbers: Sequence[int], most: int, broken: list[int]
+) -> Iterator[tuple[int, Done]]:
     """The same with a pool; ``most`` are under way at any moment."""
     waiting = deque(numbers)
     running: dict[Future[Done], int] = {}
-    broken: list[int] = []
     while running or (waiting and not broken):
         while waiting and not broken and len(running) < most:
             number = waiting.popleft()
@@ -79,12 +74,12 @@ def _until_broken(
             if isinstance(future.exception(), BrokenProcessPool):
                 broken.append(number)
             else:
-                finish(number, future.result())
-    return broken
+                yield number, future.result()
 
 
 def _end_with_parent() -> None:
-    """Let a process end when the one that started it is gone, however that went."""
+    """Let a process end when the one that started it is gone or interrupted, however that went."""
+    end_quietly()
     parent = parent_process()
     assert parent is not None
 
@@ -98,16 +93,9 @@ def _end_with_parent() -> None:
 def _require_start(pool: ProcessPoolExecutor) -> None:
     """Tell processes that cannot even start from those that a recording kills."""
     try:
-        pool.submit(int).result()
+        with held_back():
+            started = pool.submit(int)
+        started.result()
     except BrokenProcessPool:
         cure = "in a script, call it under if __name__ == '__main__'; or use one process"
         raise UsageError("other processes cannot be started", place="jobs", cure=cure) from None
-
-
-def _killed(path: Path) -> Finding:
-    cure = "give it more memory, or audit it by itself"
-    return Finding(
-        path=str(path), index=None, time=None, topic=None, vmd=None,
-        severity="error", rule="input.unreadable", clauses=("R-7.3.1-2",),
-        message=f"{path}: the process that audited it was killed ({cure})",
-    )  # fmt: skip
