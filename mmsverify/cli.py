@@ -25,6 +25,7 @@ from mmsverify.commands.imports import import_
 from mmsverify.commands.record import record
 from mmsverify.commands.timeline import timeline
 from mmsverify.errors import MmsverifyError
+from mmsverify.fleet.tasks import SELDOM
 from mmsverify.report.wording import printable
 
 BAD_REQUEST = 2
@@ -90,8 +91,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(arguments: list[str]) -> int:
-    # States, rows and formulas are made by the thousand and are no garbage: seldom looking saves a tenth.
-    gc.set_threshold(50_000, 20, 100)
+    gc.set_threshold(*SELDOM)
     status = typer.main.get_command(app).main(arguments, prog_name="mmsverify", standalone_mode=False)
     return status if isinstance(status, int) else 0
 

@@ -8,6 +8,7 @@ itself, and if it kills the process then, too, it is told as one that cannot be 
 
 from __future__ import annotations
 
+import gc
 import logging
 import threading
 import warnings
@@ -22,7 +23,7 @@ from typing import TYPE_CHECKING
 from mmsverify import __version__
 from mmsverify.errors import UsageError
 from mmsverify.fleet.interrupts import held_back
-from mmsverify.fleet.tasks import LOCAL, Done, Task, killed
+from mmsverify.fleet.tasks import LOCAL, SELDOM, Done, Task, killed
 from mmsverify.formats.locations import Location, Url
 
 if TYPE_CHECKING:
@@ -128,7 +129,12 @@ def _done(task: Task, version: str, path: Location) -> Done:
         cure = f"install mmsverify {version} where the workers run"
         raise UsageError(f"a worker has mmsverify {__version__}", place="Dask", cure=cure)
     with _alone:
-        return task(path)
+        before = gc.get_threshold()
+        gc.set_threshold(*SELDOM)
+        try:
+            return task(path)
+        finally:
+            gc.set_threshold(*before)
 
 
 def _anywhere(path: Location) -> Location:
@@ -200,9 +206,12 @@ def _local(workers: int) -> Iterator[object]:
     import dask
     from distributed import LocalCluster
 
-    silent = {"distributed.nanny.pre-spawn-environ.DASK_LOGGING__DISTRIBUTED": "critical"}
+    plain = {
+        "distributed.nanny.pre-spawn-environ.DASK_LOGGING__DISTRIBUTED": "critical",
+        "distributed.worker.profile.enabled": False,
+    }
     try:
-        with held_back(), dask.config.set(silent):
+        with held_back(), dask.config.set(plain):
             cluster = LocalCluster(
                 n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0,
                 dashboard_address=None, silence_logs=logging.CRITICAL,

@@ -6,6 +6,7 @@ and a recording that kills its process alone as well is told as one that cannot 
 
 from __future__ import annotations
 
+import gc
 import os
 import threading
 from collections import deque
@@ -16,7 +17,7 @@ from multiprocessing import connection, get_context, parent_process
 
 from mmsverify.errors import UsageError
 from mmsverify.fleet.interrupts import end_quietly, held_back
-from mmsverify.fleet.tasks import Done, Task, killed
+from mmsverify.fleet.tasks import SELDOM, Done, Task, killed
 from mmsverify.formats.locations import Location
 
 
@@ -40,9 +41,7 @@ def _round(
     task: Task, paths: Sequence[Location], numbers: Sequence[int], jobs: int, broken: list[int]
 ) -> Iterator[tuple[int, Done]]:
     """Do these until a process dies; those that were under way then are noted as ``broken``."""
-    pool = ProcessPoolExecutor(
-        min(jobs, len(numbers)), mp_context=get_context("spawn"), initializer=_end_with_parent
-    )
+    pool = ProcessPoolExecutor(min(jobs, len(numbers)), mp_context=get_context("spawn"), initializer=_begin)
 
     def submit(number: int) -> Future[Done]:
         with held_back():  # this may start a process
@@ -77,8 +76,9 @@ def _until_broken(
                 yield number, future.result()
 
 
-def _end_with_parent() -> None:
+def _begin() -> None:
     """Let a process end when the one that started it is gone or interrupted, however that went."""
+    gc.set_threshold(*SELDOM)
     end_quietly()
     parent = parent_process()
     assert parent is not None

@@ -15,6 +15,10 @@ UNREADABLE = "input.unreadable"
 LOCAL = "local"
 """In the place of a scheduler's address: a cluster of this machine, for one audit."""
 
+SELDOM = (50_000, 20, 100)
+"""When the garbage collector looks, in a process that audits or checks: states, rows and formulas are made by
+the thousand and are no garbage, and seldom looking saves a tenth."""
+
 Done = tuple[AuditedInput | None, list[Finding]]
 """How a recording was read (``None``: not at all), and what was found in it."""
 Task = Callable[..., Done]
