@@ -54,7 +54,7 @@ def write_routine(path: Path, count: int) -> None:
 def write_diverse(path: Path, count: int) -> None:
     """Batches in which no message is like another, with invokeIDs from all that Unsigned32 has."""
     cell = Logger(Recording("weld8"))
-    beginning, batch = script(cell, *BEGINNING), script(cell, lambda _: diverse(cell))
+    beginning, batch = script(cell, *BEGINNING), script(cell, diverse)
     # About every other message has an invokeID that no other has; an odd stride meets all of them.
     stride = max(1, 2 * _ALL_INVOKE_IDS // max(count, 1)) | 1
     _repeated(path, count, beginning, [batch], stride)
