@@ -41,7 +41,8 @@ sys.path[:0] = [str(Path(__file__).parent)]
 import token_replay  # noqa: E402
 from logs import LOGS, Log, write_routine  # noqa: E402
 
-Work = Callable[[Path], object]
+Work = Callable[[Path], Callable[[], object]]
+"""Makes ready for what is then timed."""
 LONGER, MOST, SLACK = 5, 400e6, 1.05
 HEADS = (
     f"{'thousands/s':19}{'way':8}{'messages':>10}{'MiB':>6}{'bare':>8}{'mcap':>7}{'cold':>8}{'warm':>8}"
@@ -57,25 +58,38 @@ class Measured(NamedTuple):
     size: float
 
 
-def decompressed(path: Path) -> None:
-    """Unpack the chunks and look at nothing."""
+def decompressed(path: Path) -> Callable[[], None]:
+    """Unpack the chunks, which are in memory, and look at nothing."""
     with path.open("rb") as file:
-        for chunk in StreamReader(file, emit_chunks=True).records:
-            if isinstance(chunk, Chunk):
-                zstandard.decompress(chunk.data, max_output_size=chunk.uncompressed_size)
+        records = StreamReader(file, emit_chunks=True).records
+        chunks = [(chunk.data, chunk.uncompressed_size) for chunk in records if isinstance(chunk, Chunk)]
+
+    def work() -> None:
+        for data, size in chunks:
+            zstandard.decompress(data, max_output_size=size)
+
+    return work
 
 
-def iterated(path: Path) -> None:
+def iterated(path: Path) -> Callable[[], None]:
     """What the mcap package takes to read."""
-    with path.open("rb") as file:
-        for _ in make_reader(file).iter_messages():
-            pass
+
+    def work() -> None:
+        with path.open("rb") as file:
+            for _ in make_reader(file).iter_messages():
+                pass
+
+    return work
 
 
-def audited(path: Path, *, clean: bool = True, exact: bool = False, **way: Any) -> None:
+def audited(path: Path, *, clean: bool = True, exact: bool = False, **way: Any) -> Callable[[], None]:
     """The whole audit, of which nothing but notes may come where the log is ``clean``."""
-    audit = audit_traces([path], profile=None, model=None, exact=exact, **way)
-    assert not clean or all(one.severity == "note" for one in audit.findings), audit.findings[:3]
+
+    def work() -> None:
+        audit = audit_traces([path], profile=None, model=None, exact=exact, **way)
+        assert not clean or all(one.severity == "note" for one in audit.findings), audit.findings[:3]
+
+    return work
 
 
 def ways() -> Mapping[str, Mapping[str, bool]]:
@@ -88,10 +102,10 @@ def ways() -> Mapping[str, Mapping[str, bool]]:
 
 def measured(work: Work, path: Path, times: int) -> Measured:
     """Do the same so many times."""
-    seconds = []
+    do, seconds = work(path), []
     for _ in range(times):
         begin = time.process_time()
-        work(path)
+        do()
         seconds.append(time.process_time() - begin)
     return Measured(seconds[0], seconds[-1], peak())
 
