@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+from contextlib import suppress
 from functools import cache
 from random import Random
 
@@ -14,7 +16,8 @@ from two_ways import GAVE_UP, agree, root, short_way
 from mmsverify.formats import compiled, mms
 from mmsverify.formats.ber import element
 from mmsverify.formats.mcap import read_trace
-from mmsverify.resources import traces_dir
+from mmsverify.formats.schema import TABLE, Schema
+from mmsverify.resources import asn1_dir, traces_dir
 
 SLOW_TO_DRAW = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow], max_examples=200)
 NESTS = 70
@@ -38,6 +41,16 @@ def array(depth: int) -> bytes:
 
 def test_all_that_the_samples_say_is_read_the_short_way() -> None:
     assert all(map(agree, sampled()))
+
+
+def test_a_function_can_be_made_of_every_type() -> None:
+    schema, modules = Schema.of_folder(asn1_dir()), json.loads((asn1_dir() / TABLE).read_text("utf-8"))
+    names = {name for module in modules["modules"].values() for name in module["types"]}
+    for name in sorted(names):
+        for read in [*compiled.root_table(schema.type(name), often=1).values()]:
+            with suppress(*compiled.GIVES_UP):
+                read(b"", 0, 0, 1)
+    assert len(names) > 250
 
 
 @SLOW_TO_DRAW
