@@ -1,23 +1,32 @@
-"""How fast long recordings are audited, beside reading them only.
+"""How fast long recordings are audited, beside reading them only and beside token replay.
 
-    python bench/throughput.py [MESSAGES [ROUNDS]]
+    python bench/throughput.py [MESSAGES [ROUNDS]] [--log NAME ...] [--memory]
 
-A welding robot's routine, batch after batch, of MESSAGES messages (1,000,000; zstd); the same by the exact
-way, a 500th of it; samples of a press; polls of a Modbus server. For each the median of ROUNDS (3) rounds, in
-thousands of messages a second of CPU time: bare decompression of the chunks, ``iter_messages`` of the mcap
-package, the audit. Every round is a process of its own, whose greatest size is told, too.
+The logs of ``logs.py``, of MESSAGES messages (1,000,000) or a share of that, are unpacked only (bare), read
+by ``iter_messages`` of the mcap package, and audited: in pure Python, and by the kernel where there is one.
+Told are thousands of messages a second of CPU time, the median of ROUNDS (3) rounds. Each measurement is a
+process of its own; in it the audit is done twice, and the second is called warm. The ratios are those of the
+warm audit; the size is the greatest of that process. pm4py's token replay gets the routine as an event log,
+where pm4py is installed (extra ``bench``).
+
+``--memory`` audits the routine of MESSAGES and of five times as many instead, and tells the processes' sizes;
+the exit code tells whether the longer took more than 400 MB, or more than the shorter.
 """
 
 from __future__ import annotations
 
+import argparse
+import inspect
 import multiprocessing
 import statistics
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
+from importlib.util import find_spec
 from pathlib import Path
+from typing import Any, NamedTuple
 
 import zstandard
 from mcap.reader import make_reader
@@ -25,62 +34,44 @@ from mcap.records import Chunk
 from mcap.stream_reader import StreamReader
 
 from mmsverify.auditing import audit_traces
-from mmsverify.formats.mcap import TraceWriter, read_trace
-from mmsverify.formats.trace import Channel
-from mmsverify.samples import shift
-from mmsverify.samples.cell import Cell
-from mmsverify.samples.recording import BEGIN, Recording
+from mmsverify.formats.mcap import read_trace
 
-TESTS = Path(__file__).parent.parent / "tests"
-sys.path[:0] = [str(TESTS), str(TESTS / "quality")]
+sys.path[:0] = [str(Path(__file__).parent)]
 
-from vr_random import Run  # noqa: E402
+import token_replay  # noqa: E402
+from logs import LOGS, Log, write_routine  # noqa: E402
 
-from mmsverify.formats.vr import encode  # noqa: E402
-
-STEP = 40_000_000
 Work = Callable[[Path], Callable[[], object]]
 """Makes ready for what is then timed."""
+LONGER, MOST, SLACK = 5, 400e6, 1.05
+HEADS = (
+    f"{'thousands/s':19}{'way':8}{'messages':>10}{'MiB':>6}{'bare':>8}{'mcap':>7}{'cold':>8}{'warm':>8}"
+    f"{'warm/mcap':>11}{'warm/bare':>11}{'peak MiB':>10}"
+)
 
 
-def routine(path: Path, count: int) -> None:
-    """A robot's routine: what an early shift begins with, and then batches."""
-    recording = Recording("weld7")
-    cell = Cell(recording)
-    for part in (shift.morning, shift.calibration, shift.loading, shift.first_batch):
-        part(cell)
-    while recording.count < count:
-        shift.routine(cell)
-    recording.write(path)
+class Measured(NamedTuple):
+    """CPU seconds of the first time and of the second, and MiB of the process."""
+
+    cold: float
+    warm: float
+    size: float
 
 
-def press(path: Path, count: int) -> None:
-    """Samples of a controller, every scan."""
-    with TraceWriter(path) as writer:
-        for number, cells in enumerate(Run(1).samples(count)):
-            writer.add(BEGIN + number * STEP, Channel.vr("press", "scan"), encode(cells))
-
-
-def polls(path: Path, count: int) -> None:
-    """A client that reads the same signals over and over."""
-    sides = [Channel.modbus("robot4", "c1", side) for side in ("client", "server")]
-    with TraceWriter(path) as writer:
-        for number in range(count // 2):
-            head = (number & 0xFFFF).to_bytes(2)
-            asked, answered = head + b"\0\0\0\6\1\1\0\1\0\x40", head + b"\0\0\0\x0b\1\1\x08" + bytes(8)
-            for side, data in zip(sides, (asked, answered), strict=True):
-                writer.add(BEGIN + number * STEP, side, data)
-
-
-def decompressed(path: Path) -> Callable[[], object]:
-    """Unpack the chunks and look at nothing."""
+def decompressed(path: Path) -> Callable[[], None]:
+    """Unpack the chunks, which are in memory, and look at nothing."""
     with path.open("rb") as file:
         records = StreamReader(file, emit_chunks=True).records
         chunks = [(chunk.data, chunk.uncompressed_size) for chunk in records if isinstance(chunk, Chunk)]
-    return lambda: [zstandard.decompress(data, max_output_size=size) for data, size in chunks] and None
+
+    def work() -> None:
+        for data, size in chunks:
+            zstandard.decompress(data, max_output_size=size)
+
+    return work
 
 
-def iterated(path: Path) -> Callable[[], object]:
+def iterated(path: Path) -> Callable[[], None]:
     """What the mcap package takes to read."""
 
     def work() -> None:
@@ -91,22 +82,32 @@ def iterated(path: Path) -> Callable[[], object]:
     return work
 
 
-def audited(path: Path, *, exact: bool = False) -> Callable[[], object]:
-    """The whole audit, of which nothing but notes may come."""
+def audited(path: Path, *, clean: bool = True, exact: bool = False, **way: Any) -> Callable[[], None]:
+    """The whole audit, of which nothing but notes may come where the log is ``clean``."""
 
     def work() -> None:
-        audit = audit_traces([path], profile=None, model=None, exact=exact)
-        assert all(finding.severity == "note" for finding in audit.findings), audit.findings[:3]
+        audit = audit_traces([path], profile=None, model=None, exact=exact, **way)
+        assert not clean or all(one.severity == "note" for one in audit.findings), audit.findings[:3]
 
     return work
 
 
-def measured(prepare: Work, path: Path) -> tuple[float, float]:
-    """CPU seconds and MiB of the process."""
-    work = prepare(path)
-    begin = time.process_time()
-    work()
-    return time.process_time() - begin, peak()
+def ways() -> Mapping[str, Mapping[str, bool]]:
+    """The ways to audit that there are, each with what `audit_traces` is told for it."""
+    if "kernel" not in inspect.signature(audit_traces).parameters:
+        return {"python": {}}
+    found = {"python": {"kernel": False}, "kernel": {"kernel": True}}
+    return found if find_spec("numba") else {"python": found["python"]}
+
+
+def measured(work: Work, path: Path, times: int) -> Measured:
+    """Do the same so many times."""
+    do, seconds = work(path), []
+    for _ in range(times):
+        begin = time.process_time()
+        do()
+        seconds.append(time.process_time() - begin)
+    return Measured(seconds[0], seconds[-1], peak())
 
 
 def peak() -> float:
@@ -115,42 +116,78 @@ def peak() -> float:
     return sum(int(line.split()[1]) for line in lines if line.startswith("VmHWM")) / 1024
 
 
-def median(work: Work, path: Path, rounds: int) -> tuple[float, float]:
+def median(work: Work, path: Path, rounds: int, times: int = 2) -> Measured:
     """The medians of some rounds, each in a process of its own."""
     context = multiprocessing.get_context("spawn")
     found = []
     for _ in range(rounds):
         with context.Pool(1) as pool:
-            found.append(pool.apply(measured, (work, path)))
-    seconds, sizes = zip(*found, strict=True)
-    return statistics.median(seconds), statistics.median(sizes)
+            found.append(pool.apply(measured, (work, path, times)))
+    return Measured(*map(statistics.median, zip(*found, strict=True)))
 
 
-def logs(folder: Path, count: int) -> Iterator[tuple[str, Path, Work]]:
-    """The recordings, and how each is audited."""
-    makers = (("MMS, routine", routine, 1), ("MMS, exact way", routine, 500), ("VR, scan", press, 5),
-              ("Modbus, polls", polls, 5))  # fmt: skip
-    for name, make, part in makers:
-        path = folder / f"{make.__name__}-{part}.mcap"
-        make(path, count // part)
-        yield name, path, partial(audited, exact=True) if part == 500 else audited
+def lines(name: str, log: Log, path: Path, rounds: int) -> Iterator[str]:
+    """The rows of the table for one log."""
+    count = sum(len(batch) for batch in read_trace(path).batches())
+    bare, read = (count / median(work, path, rounds).warm / 1000 for work in (decompressed, iterated))
+    size = path.stat().st_size / (1 << 20)
+    for way, told in ways().items():
+        if log.exact and way != "python":
+            continue
+        found = median(partial(audited, clean=log.clean, exact=log.exact, **told), path, rounds)
+        cold, warm = (count / seconds / 1000 for seconds in (found.cold, found.warm))
+        yield (
+            f"{name:19}{way:8}{count:10,}{size:6.1f}{bare:8,.0f}{read:7,.0f}{cold:8,.1f}{warm:8,.1f}"
+            f"{warm / read:11.2f}{warm / bare:11.3f}{found.size:10.0f}"
+        )
 
 
-def main() -> None:
-    """Print the table."""
-    count, rounds = (int(text) for text in (sys.argv[1:] + ["1000000", "3"][len(sys.argv) - 1 :]))
-    print(f"{'thousands/s':18}{'messages':>10}{'bare':>9}{'mcap':>8}{'audit':>8}{'audit/mcap':>12}{'MiB':>6}")
+def table(names: Sequence[str], count: int, rounds: int) -> None:
+    """Write each log, measure it and print its rows."""
+    print(HEADS)
     with tempfile.TemporaryDirectory() as folder:
-        for name, path, audit in logs(Path(folder), count):
-            number = sum(len(batch) for batch in read_trace(path).batches())
-            bare, read = (median(work, path, rounds)[0] for work in (decompressed, iterated))
-            seconds, size = median(audit, path, rounds)
-            rates = [number / each / 1000 for each in (bare, read, seconds)]
-            print(
-                f"{name:18}{number:10,}{rates[0]:9,.0f}{rates[1]:8,.0f}{rates[2]:8,.1f}"
-                f"{rates[2] / rates[1]:12.2f}{size:6.0f}"
-            )
+        for name in names:
+            path = Path(folder) / "log.mcap"
+            LOGS[name].write(path, count // LOGS[name].share)
+            for line in lines(name, LOGS[name], path, rounds):
+                print(line, flush=True)
+        if "routine" in names:
+            print(token_replay.line(Path(folder) / "tokens.mcap", count))
+
+
+def memory(count: int) -> bool:
+    """Whether the audit of a log that is five times as long stays as small."""
+    sizes: dict[tuple[str, int], float] = {}
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "log.mcap"
+        for number in (count, LONGER * count):
+            begin = time.perf_counter()
+            write_routine(path, number)
+            written = time.perf_counter() - begin
+            for way, told in ways().items():
+                found = median(partial(audited, **told), path, 1, 1)
+                sizes[way, number] = found.size * (1 << 20)
+                print(
+                    f"{way:8}{number:12,} messages, written in {written:.0f} s, audited in {found.cold:.0f} s"
+                    f" of CPU: at most {sizes[way, number] / 1e6:.0f} MB",
+                    flush=True,
+                )
+    return all(sizes[way, LONGER * count] <= min(MOST, SLACK * sizes[way, count]) for way in ways())
+
+
+def main() -> int:
+    """Print the table, or the sizes."""
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("messages", type=int, nargs="?", default=1_000_000)
+    parser.add_argument("rounds", type=int, nargs="?", default=3)
+    parser.add_argument("--log", action="append", choices=LOGS, help="only this one; may be given repeatedly")
+    parser.add_argument("--memory", action="store_true", help="sizes instead of speeds")
+    given = parser.parse_args()
+    if given.memory:
+        return int(not memory(given.messages))
+    table(given.log or [*LOGS], given.messages, given.rounds)
+    return 0
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main())

@@ -54,7 +54,7 @@ def header(octets: bytes, at: int, limit: int) -> tuple[int, int, int]:
         length = octets[begin]
         begin += 1
         if length > 0x7F:
-            length, begin = _long_length(octets, begin, limit)
+            length, begin = long_length(octets, begin, limit)
     except IndexError:
         raise Fault("the octets end inside an identifier or a length", at) from None
     end = begin + length
@@ -82,7 +82,8 @@ def _long_identifier(octets: bytes, at: int, limit: int) -> tuple[int, int]:
     raise Fault("the octets end inside an identifier, or the tag is not one of MMS", at)
 
 
-def _long_length(octets: bytes, begin: int, limit: int) -> tuple[int, int]:
+def long_length(octets: bytes, begin: int, limit: int) -> tuple[int, int]:
+    """A length of several octets, of which the first was read; and where the contents begin."""
     count = octets[begin - 1] & 0x7F
     if count == 0:
         raise Fault("an indefinite length, which this decoder does not read", begin - 1)

@@ -214,6 +214,10 @@ class Choice:
         for head, reader in self.alternatives[name].readers.items():
             self.readers[head] = _alternative(name, reader)
 
+    def alternative(self, head: int) -> tuple[str, Type]:
+        """The alternative that an element with these identifier octets is."""
+        return next((name, kind) for name, kind in self.alternatives.items() if head in kind.readers)
+
     def write(self, value: Any, depth: int) -> bytes:
         match value:
             case (str(name), content) if name in self.alternatives:

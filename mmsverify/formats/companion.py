@@ -14,6 +14,11 @@ from typing import Any
 ADDITIONAL_SERVICES = frozenset({"vMDStop", "vMDReset", "select", "alterPI"})
 """The services under [78], GB/T 16720.3, 7.4.1.2."""
 
+RENAMED = frozenset({"additionalService"})
+"""Services that `plain_service` gives another name."""
+RESHAPED = frozenset({"eventNotification", "takeControl", "defineEventAction", "getEventActionAttributes"})
+"""Services whose body `plain_body` looks into."""
+
 _STATUS = frozenset({"status", "unsolicitedStatus"})
 _DETAIL_OF = {"vMDReset": "status"}
 _MAY_BE_NORMAL = frozenset({"start", "resume"})

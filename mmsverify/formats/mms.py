@@ -15,8 +15,8 @@ from functools import cache
 from typing import Any, NamedTuple
 
 from mmsverify.errors import DecodeError
-from mmsverify.formats import cited, companion
-from mmsverify.formats.ber import EncodeError, Fault, header, shown
+from mmsverify.formats import cited, companion, compiled
+from mmsverify.formats.ber import EncodeError, Fault, header, long_length, shown
 from mmsverify.formats.codec import Misfit, Type, Walk
 from mmsverify.formats.schema import Schema
 from mmsverify.resources import asn1_dir
@@ -69,6 +69,12 @@ class Pdu:
     remarks: tuple[str, ...] = ()
 
 
+class _Open:
+    """A `Pdu` in the making. What `dataclass` writes to make a frozen object takes five times as long."""
+
+    __slots__ = ("body", "detail", "invoke_id", "kind", "modifiers", "remarks", "service")
+
+
 class ErrorCause(NamedTuple):
     """Why a service failed: error class, code, and the service specific information, if any."""
 
@@ -97,17 +103,40 @@ def _root() -> Type:
     return _schema().type("MMSpdu")
 
 
+@cache
+def _functions() -> dict[int, compiled.Read]:
+    return compiled.root_table(_root())
+
+
 def decode(octets: bytes) -> Pdu:
     """Read one whole PDU of ISO 9506-2 with GB/T 16720.3 clause 7; anything else is a `DecodeError`."""
-    walk = Walk(bytes(octets))
+    if type(octets) is not bytes:
+        octets = bytes(octets)
+    remarks: tuple[str, ...] = ()
+    try:  # the short way, for octets without a fault and with nothing to remark
+        begin, size, end = 2, octets[1], len(octets)
+        if size > 0x7F:
+            size, begin = long_length(octets, begin, end)
+        if begin + size != end:
+            raise compiled.Irregular
+        kind, content = _functions()[octets[0]](octets, begin, end, 1)
+    except compiled.GIVES_UP:
+        kind, content, remarks = _read_any(octets)
     try:
-        kind, content = _read(walk)
-        return _pdu(kind, content, tuple(walk.remarks))
-    except Fault as fault:
-        raise _decode_error(fault) from None
+        return _pdu(kind, content, remarks)
     except companion.Misplaced as misplaced:
         place = locate(octets, ("detail",)) or (0, 0)
         raise DecodeError(str(misplaced), offset=place[0], path=f"{kind}.detail") from None
+
+
+def _read_any(octets: bytes) -> tuple[str, Any, tuple[str, ...]]:
+    """The long way, which knows what is wrong."""
+    walk = Walk(octets)
+    try:
+        kind, content = _read(walk)
+        return kind, content, tuple(walk.remarks)
+    except Fault as fault:
+        raise _decode_error(fault) from None
 
 
 def encode(pdu: Pdu) -> bytes:
@@ -202,18 +231,22 @@ def _read(walk: Walk) -> tuple[str, Any]:
 
 def _pdu(kind: str, content: Any, remarks: tuple[str, ...]) -> Pdu:
     if kind in _WITH_SERVICE:
-        service, body = companion.plain_service(content["service"])
-        if body == {} and kind == "confirmed-ResponsePDU":
+        named = content["service"]
+        service, body = named if named[0] not in companion.RENAMED else companion.plain_service(named)
+        if not body and body == {} and kind == "confirmed-ResponsePDU":
             remarks = (*remarks, f"{service}: an empty element stands where a result must")
-        return Pdu(
-            kind,
-            content.get("invokeID"),
-            service,
-            companion.plain_body(service, body),
-            companion.plain_detail(service, content.get("detail")),
-            tuple(content.get("listOfModifier", ())),
-            remarks,
-        )
+        if service in companion.RESHAPED:
+            body = companion.plain_body(service, body)
+        detail = content.get("detail")
+        if detail is not None:
+            detail = companion.plain_detail(service, detail)
+        pdu: Any = _Open()
+        pdu.kind, pdu.service, pdu.body, pdu.detail, pdu.remarks = kind, service, body, detail, remarks
+        pdu.invoke_id = content.get("invokeID")
+        pdu.modifiers = tuple(content["listOfModifier"]) if "listOfModifier" in content else ()
+        pdu.__class__ = Pdu
+        done: Pdu = pdu
+        return done
     if kind in _ONLY_INVOKE:
         return Pdu(kind, content, remarks=remarks)
     field = _INVOKE_FIELD.get(kind)

@@ -50,7 +50,7 @@ class SchemaError(MmsverifyError):
     code = "schema"
 
 
-class _Later:
+class Later:
     """A type inside its own definition, until that is complete."""
 
     def __init__(self) -> None:
@@ -154,7 +154,7 @@ class Schema:
         if key not in self._compiled:
             if name not in self._trees:
                 raise SchemaError("no module defines this type", place=name)
-            later = _Later()
+            later = Later()
             self._compiled[key] = later
             made = self._build(self._trees[name], tag, name)
             if name in self._also:
@@ -198,7 +198,7 @@ class Schema:
         _refuse_same_tags(alternatives, place)
         made = Choice(alternatives)
         for name, kind in alternatives:
-            if isinstance(kind, _Later):
+            if isinstance(kind, Later):
                 kind.waiting.append(partial(made.link, name))
         return made
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any, BinaryIO, Literal
 
 from mmsverify.formats import vr
@@ -34,6 +34,11 @@ class Recording:
     def count(self) -> int:
         """How many messages there are."""
         return len(self._messages)
+
+    @property
+    def messages(self) -> Sequence[tuple[int, Channel, bytes]]:
+        """What was said so far: time in ns, channel, octets."""
+        return self._messages
 
     def wait(self, seconds: float) -> None:
         """Nothing is said for a while."""

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any
 
 import asn1tools
 import pytest
+from one_module import HEADER, one_module
 
 from mmsverify.formats.asn1_text import parsed, table
 from mmsverify.formats.codec import Choice
@@ -19,7 +19,6 @@ PATHS = sorted(asn1_dir().glob("*.asn"))
 TEXTS = {path.name: path.read_text(encoding="utf-8") for path in PATHS}
 MODULES: dict[str, Any] = asn1tools.parse_files([str(path) for path in PATHS])
 SCHEMA = Schema.of_folder(asn1_dir())
-HEADER = "Try DEFINITIONS IMPLICIT TAGS ::= BEGIN\n"
 
 
 def test_the_table_is_that_of_the_present_modules() -> None:
@@ -80,14 +79,6 @@ def test_a_detail_has_the_tag_of_its_service(detail: str) -> None:
     assert isinstance(services, Choice)
     for name, one in kind.alternatives.items():
         assert {*map(number, one.readers)} == {*map(number, services.alternatives[name].readers)}
-
-
-def one_module() -> str:
-    """All modules but the forms only read as one, for a compiler that types across modules overtax."""
-    text = "".join(text for name, text in TEXTS.items() if name != "mms-also-read.asn")
-    frame = r"--.*|^[\w-]+ (\{[^}]*\} )?DEFINITIONS.*|^mms-robot-syntax.*|IMPORTS [^;]*;|^END$"
-    bodies = re.sub(frame, "", text, flags=re.M)
-    return f"{HEADER}{re.sub(r'DEFAULT cycleCount : 1', 'OPTIONAL', bodies)}END"
 
 
 def test_another_decoder_reads_annex_a_as_this_one_does() -> None:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import struct
 from collections.abc import Callable, Iterable, Iterator
 
+from two_ways import agree
+
 from fuzzing import seeds
 from mmsverify.audit.lookahead import link as link_event
 from mmsverify.errors import DecodeError
@@ -22,7 +24,8 @@ SIDES: tuple[Sender, Sender] = ("client", "server")
 
 
 def decode_mms(octets: bytes) -> bool:
-    """One PDU: read, looked for a field, written again; a refusal is told with its statements."""
+    """One PDU: read both ways, looked for a field, written again; a refusal is told with its statements."""
+    agree(octets)
     try:
         pdu = mms.decode(octets)
     except DecodeError as error:
