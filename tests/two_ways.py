@@ -1,4 +1,4 @@
-"""The two ways in which a PDU is read: by functions that are written from the ASN.1 types, and by the types."""
+"""The two ways of reading a PDU: by functions that are written from the ASN.1 types, and by the types."""
 
 from __future__ import annotations
 
