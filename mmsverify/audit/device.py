@@ -6,7 +6,7 @@ it announces in ``notifications``; how a finding is made in ``telling``.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import ClassVar
 
 from mmsverify.audit import contents
@@ -140,12 +140,14 @@ class Device:
 
     # Messages.
 
-    def message(self, message: TraceMessage) -> Iterator[Finding]:
-        """The findings of one MMS message."""
+    def message(
+        self, message: TraceMessage, read: Callable[[TraceMessage], Pdu] | None = None
+    ) -> Iterator[Finding]:
+        """The findings of one MMS message. ``read`` decodes it, where that is not done as usual."""
         name, side = message.metadata.get("association", ""), message.metadata.get("sender", "client")
         self.belief.listen()
         try:
-            pdu = marked(mms.decode(message.data))
+            pdu = marked(mms.decode(message.data) if read is None else read(message))
         except DecodeError as error:
             clause = Clause.of(*mms.encoded_statements(error.path))
             yield from self._telling.breach(message, undecodable(message.data, error, clause))

@@ -44,7 +44,7 @@ class Kernel:
         walked = self._walking > 0
         if self._walking > 0:
             self._walking -= 1
-        elif stretch.last > _LATEST or (self._calls > _TRIED and self._passed < _WORTH * self._calls):
+        elif stretch.last > _LATEST:
             self._walking = _AGAIN
         self._calls = self._passed = 0
         if stretch.known is not self._known or (self._walking > 0) != walked:
@@ -97,9 +97,22 @@ class Kernel:
             self._take(stretch)
             if why == loops.DISORDER:
                 raise DisorderError
+            if self._calls > _TRIED and self._passed < _WORTH * self._calls:
+                return self._give_up(stretch, at)
             if at >= stretch.size or not self._teach(stretch, at):
                 return at
             self._give(stretch)
+
+    def _give_up(self, stretch: Stretch, at: int) -> int:
+        """Go on without the loops, for a while: too often they stop."""
+        for learned in self._devices:
+            learned.catch_up(stretch)
+            learned.trail = ListedTrail()
+        self._devices.clear()
+        self._mirror.arrays.channels[list(self._listeners), loops.DEVICE] = -1
+        self._listeners.clear()
+        self._walking = _AGAIN
+        return self._walk.follow(stretch, at)
 
     def _anew(self, stretch: Stretch) -> None:
         """Fill the arrays anew, after all that they led to has been written down."""

@@ -9,12 +9,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Generic, Protocol, TypeVar
+from functools import partial
+from typing import Any, Generic
 
-from mmsverify.audit.classes import Split
+from mmsverify.audit.classes import Classes, Split
+from mmsverify.audit.indifference import attempt, compared
+from mmsverify.audit.leaves import Span as Place
+from mmsverify.audit.leaves import TouchedError, read, real
 from mmsverify.audit.marks import Index, InvokeId
+from mmsverify.audit.part import Judge, P, Read
 from mmsverify.audit.snapshots import Mark, Own
-from mmsverify.audit.tables import NEW, PRESENT, Classes, State, Step, Tables, event
+from mmsverify.audit.tables import NEW, PRESENT, State, Step, Tables, event
 from mmsverify.audit.telling import History
 from mmsverify.audit.trail import ListedTrail, Trail
 from mmsverify.formats.stretch import Stretch
@@ -25,38 +30,22 @@ LONGEST = 2048
 """Octets of a message that may have a class: of longer ones few are said twice, and all would be kept."""
 _TRIAL = 256  # so many messages are not known, and then it is seen how many were
 _REST = 8192  # messages
+COMPARES = False
+"""Whether it is seen to that values which nobody looks at make no difference. They cannot; it takes long."""
 
 Span = tuple[int, int]
 """Two indices of messages, both within."""
-
-
-class Part(Protocol):
-    """What is audited: its messages go in, findings come out. ``SHARED`` are the types of what is no state.
-
-    ``grown`` is what it has met: states mean the same only where that is the same, in the same order.
-    """
-
-    SHARED: ClassVar[tuple[type, ...]]
-
-    @property
-    def history(self) -> History: ...
-    @property
-    def grown(self) -> Sequence[Any]: ...
-    def grow(self, grown: Iterable[Any]) -> None: ...
-    def settle(self) -> None: ...
-
-
-P = TypeVar("P", bound=Part)
-Judge = Callable[[P, TraceMessage], Iterator[Finding]]
 
 
 class Learned(Generic[P]):
     """A part, and what was learned of such parts.
 
     ``make`` makes a part that has not seen anything, where one is needed; parts of one ``kind`` are then in
-    the same state. ``exact``: nothing is learned, and every message is judged by itself; so it is within the
-    spans ``blind``. Whoever follows a conversation by the tables alone moves ``state`` and ``invokes`` (the
-    invokeIDs that are among the marks of the state), and adds the steps to the ``trail``.
+    the same state. ``whole``: its messages have no invokeIDs, and all that they say counts. ``exact``:
+    nothing is learned, and every message is judged by itself; so it is within the spans ``blind``.
+
+    Whoever follows a conversation by the tables alone moves ``state`` and ``invokes`` (the invokeIDs that are
+    among the marks of the state), and adds the steps to the ``trail``.
     """
 
     def __init__(
@@ -66,6 +55,7 @@ class Learned(Generic[P]):
         judge: Judge[P],
         *,
         kind: Hashable = None,
+        whole: bool = False,
         exact: bool = False,
         blind: Sequence[Span] = (),
     ) -> None:
@@ -73,9 +63,11 @@ class Learned(Generic[P]):
         self.state: State | None = None
         self.invokes: tuple[int, ...] = ()
         self.trail: Trail = ListedTrail()
-        self._exact, self._blind, self._judge = exact, blind, judge
+        self._exact, self._blind, self._judge, self._whole = exact, blind, judge, whole
         self._history = History()
         self._make = make
+        self._heard: dict[str, tuple[Split, Classes]] = {}
+        self._looked_at: set[tuple[int, Place]] = set()
         self._part: P | None = None
         self._own: Own = {}
         self._grown = tables.root
@@ -90,13 +82,15 @@ class Learned(Generic[P]):
                 self._intern(self._part)
                 tables.initial[kind] = self.state
 
-    def listener(self, role: Hashable, split: Split, *, whole: bool = False) -> Listener:
+    def listener(self, role: Hashable, split: Split, topic: str = "") -> Listener:
         """Who takes in the messages of one channel.
 
         ``role`` tells it from the other channels of the device, in this recording and in any other. ``split``
-        takes the invokeID out of a message; ``whole``: there is none in any.
+        takes the invokeID out of a message. ``topic`` is the channel's.
         """
-        return Listener(self, self.tables.classes(role), split, whole)
+        classes = self.tables.classes(role)
+        self._heard[topic] = split, classes
+        return Listener(self, classes, split, self._whole)
 
     def hear(
         self,
@@ -109,22 +103,31 @@ class Learned(Generic[P]):
         """The findings of a message that was not followed by the tables alone.
 
         ``parts``: the message without its invokeID, and that; ``None`` where the message has no class.
-        ``judge``: who judges it, where it is not the usual one.
+        ``judge``: who judges it, where it is not the usual one, and looks at all of it.
         """
-        act = judge or self._judge
-        number = None if parts is None or self._alone(message) else self.tables.number(classes, parts[0])
-        invoke = None if parts is None else parts[1]
-        if number is None or number not in self.tables.seen:
-            if number is not None:
-                self.tables.seen.add(number)  # the first of a class is only noted
+        act, marked = judge or self._judge, _marked(message)
+        if parts is None or self._alone(message):
             part = self.awake(stretch)
             self.state = None
-            yield from act(part, _marked(message))
+            yield from act(part, marked, None)
+            return
+        rest, invoke = parts
+        number = self.tables.number(classes, rest, message.data, whole=judge is not None or self._whole)
+        if number not in self.tables.seen:  # the first of a class is only noted
+            self.tables.seen.add(number)
+            part = self.awake(stretch)
+            self.state = None
+            yield from act(part, marked, self._reading(number))
             return
         if self.state is None:
             self._intern(self.awake(stretch))
         if not self._known(number, invoke, stretch):
-            yield from self._learn(act, number, invoke, _marked(message), stretch)
+            yield from self._learn(act, number, parts, marked, stretch)
+
+    def _reading(self, number: int) -> Read | None:
+        """How messages of a class are read, so that the values that it leaves out can be told from others."""
+        spans = self.tables.leaves.get(number)
+        return None if spans is None else partial(read, spans=spans, make=real)
 
     def _known(self, number: int, invoke: int | None, stretch: Stretch) -> bool:
         """Take the step of an event if the tables know it, as whoever follows by them would."""
@@ -171,23 +174,80 @@ class Learned(Generic[P]):
         return self._exact or blind or len(message.data) > LONGEST or self._rests(index)
 
     def _learn(
-        self, judge: Judge[P], number: int, invoke: int | None, message: TraceMessage, stretch: Stretch
+        self,
+        judge: Judge[P],
+        number: int,
+        parts: tuple[bytes, int | None],
+        message: TraceMessage,
+        stretch: Stretch,
     ) -> Iterator[Finding]:
         """Ask the device, and remember the step if it told nothing."""
-        part = self.awake(stretch)
+        part, invoke = self.awake(stretch), parts[1]
         before, marks, relation = self.state, self._marks, self.relation(invoke)
-        told = False
-        for finding in judge(part, message):
+        told, epoch = False, self.tables.epoch
+        for finding in judge(part, message, self._reading(number)):
             told = True
             yield finding
         told = told or self._history.told_at(message.index)
         self._intern(part)
-        if told or self.state is None or before is None:
+        if told or self.state is None or before is None or self.tables.epoch != epoch:
+            return
+        if not self._indifferent(before, marks, message, number, judge):
             return
         sources = self._sources(marks, message, invoke)
         if sources is not None:
             wrote = self._history.written_at(message.index)
             self.tables.learn(before, event(number, relation), self.state, sources, wrote)
+
+    def _indifferent(
+        self, before: State, marks: Sequence[Mark], message: TraceMessage, number: int, judge: Judge[P]
+    ) -> bool:
+        """Whether the step that was taken is the same whatever the values are that its class leaves out.
+
+        If not, those that were looked at are part of the class from now on.
+        """
+        part, spans = self._part, dict(self.tables.leaves.get(number, {}))
+        assert part is not None
+        assert self.state is not None
+        if not (before.leafy or self.state.leafy or spans):
+            return True
+        if before.grown is not self._grown:  # a state of before could not be put back any more
+            return False
+        touched: dict[Place, int] = {}
+        while True:
+            try:
+                blind = attempt(self.tables, self._own, before, marks, message, spans, judge)
+                break
+            except TouchedError as error:
+                self._looked_at.add((error.message.index, error.span))
+                if error.message.index != message.index:
+                    self._narrow(error.message, [error.span])
+                    self._put_in_order(part)
+                    return False
+                touched[error.span] = 1
+                del spans[error.span]
+        self.tables.note(message.data, touched, spans)
+        if touched:
+            self._narrow(message, touched)
+            self._put_in_order(part)
+            return False
+        if COMPARES:
+            own = {**self._own, History: self._history}
+            assert compared(self.tables, blind, own) == compared(self.tables, part, own)
+        return True
+
+    def _put_in_order(self, part: P) -> None:
+        """Let the part hold values that were looked at as what they are."""
+        self._intern(part)
+        self._part = None if self.state is not None else part
+
+    def _narrow(self, message: TraceMessage, touched: Iterable[Place]) -> None:
+        """From now on these values are part of the class of their message, be it one of before."""
+        split, classes = self._heard[message.topic]
+        parts = split(message.data)
+        number = None if parts is None else classes.find(parts[0])
+        if parts is not None and number is not None:
+            self.tables.narrow(classes, number, parts[0], message.data, touched)
 
     def _rests(self, index: int) -> bool:
         """Whether nothing is learned for a while: where little comes again, to learn is a waste."""
@@ -204,7 +264,7 @@ class Learned(Generic[P]):
     def _intern(self, part: P) -> None:
         """Find out in which state the part is."""
         part.settle()
-        taken = self.tables.snapshots.take(part, self._own)
+        taken = self.tables.snapshots.take(part, self._own, self._looked_at)
         self._grown = self.tables.grown(part.grown, self._grown)
         self._marks = list(taken.marks)
         self.state = self.tables.state(taken, self._grown)

@@ -169,9 +169,9 @@ class Replay:
         if message.message_encoding == "mms-ber" and self._asked in (None, ROBOT):
             self._meet(message, stretch)
             role = names.get("association", ""), names.get("sender", "client")
-            return self._device(names.get("vmd", "")).listener(role, split)
+            return self._device(names.get("vmd", "")).listener(role, split, message.topic)
         if message.schema_name == SAMPLES and self._asked in (None, FRAMEWORK):
-            return self._learned(message.channel).listener(names.get("sampling", ""), whole, whole=True)
+            return self._learned(message.channel).listener(names.get("sampling", ""), whole)
         if message.message_encoding == "modbus-tcp" and self._asked in (None, SIGNALS):
             server = self._server(names.get("controller", ""))
             return lambda said, _: server.message(said)
@@ -230,7 +230,7 @@ class Replay:
         if name not in self._learners:
             tables, place = self.parts.framework_tables, Place(self.trace.path, name)
             self._learners[name] = Learned(
-                partial(self.parts.controller, place), tables, Controller.sample, exact=self._exact
+                partial(self.parts.controller, place), tables, _sample, whole=True, exact=self._exact
             )
         return self._learners[name]
 
@@ -261,7 +261,11 @@ class Replay:
         return device
 
 
-def _link(device: Device, message: TraceMessage) -> Iterator[Finding]:
+def _sample(controller: Controller, message: TraceMessage, _: object) -> Iterator[Finding]:
+    return controller.sample(message)
+
+
+def _link(device: Device, message: TraceMessage, _: object) -> Iterator[Finding]:
     connection, event = link(message) or ("", "")
     return device.link(connection, event, message)
 

@@ -6,10 +6,12 @@ what one recording has taught serves the next one of such a device.
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterable, Sequence
+from collections.abc import Collection, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from mmsverify.audit.classes import Classes
+from mmsverify.audit.leaves import Path, Span, fields, leaves
 from mmsverify.audit.marks import InvokeId
 from mmsverify.audit.snapshots import Snapshot, Snapshots
 from mmsverify.concrete.belief.partial import Key
@@ -30,9 +32,6 @@ PRESENT = -1
 NEW = -1
 """The relation of an invokeID that is none of the state's."""
 
-Classes = dict[bytes, int]
-"""By what is left of a message without its invokeID: the number of its class."""
-
 
 @dataclass(slots=True, eq=False)
 class Grown:
@@ -46,12 +45,15 @@ class Grown:
 class State:
     """A state of a device: how to put it back, which of its marks are invokeIDs, and the steps from it.
 
+    ``leafy`` as in `Snapshot`.
+
     Steps are by ``event``.
     """
 
     octets: bytes
     kinds: tuple[type, ...]
     grown: Grown
+    leafy: bool
     invokes: tuple[int, ...]
     steps: dict[int, Step] = field(default_factory=dict)
 
@@ -91,23 +93,76 @@ class Tables:
         self._size = self._steps = self._numbers = 0
         self.initial: dict[Hashable, State | None] = {}
         """By kind of device: the state of one that has not seen anything."""
+        self._looked: dict[Path, int] = {}
+        self._passed_by: set[Path] = set()
+        self.leaves: dict[int, Mapping[Span, str]] = {}
+        """By class: the values that it leaves out, by their places in a message."""
         self.seen: set[int] = set()
         """The classes of which an event has been met: only the second one is worth a state."""
 
     def classes(self, role: Hashable) -> Classes:
         """The classes of the messages of one role in the conversation."""
-        return self._roles.setdefault(role, {})
+        return self._roles.setdefault(role, Classes())
 
-    def number(self, classes: Classes, rest: bytes) -> int:
-        """The number of a class, from 1; none is used twice."""
-        found = classes.get(rest)
+    def number(self, classes: Classes, rest: bytes, data: bytes, *, whole: bool) -> int:
+        """The number of the class of a message, from 1; none is used twice.
+
+        ``rest`` is the message ``data`` without its invokeID. ``whole``: it has no values to be left out.
+        """
+        found = classes.find(rest)
         if found is not None:
             return found
+        return self._named(classes, rest, {} if whole else self._left_out(data), len(data) - len(rest))
+
+    def narrow(
+        self, classes: Classes, number: int, rest: bytes, data: bytes, touched: Iterable[Span]
+    ) -> None:
+        """Make a class anew that does not leave out the values at ``touched``: they are looked at."""
+        spans, shift, gone = self.leaves.get(number, {}), len(data) - len(rest), set(touched)
+        less = {span: kind for span, kind in spans.items() if span not in gone}
+        template = classes.template(rest, _shifted(spans, shift))
+        if len(less) == len(spans) or template is None:
+            return
+        template.numbers[template.rest(rest)] = 0
+        template.less[template.rest(rest)] = less
+        classes.forget(number)
+        self.seen.add(self._named(classes, rest, less, shift))
+
+    def note(self, data: bytes, touched: Collection[Span], untouched: Collection[Span]) -> None:
+        """What was found out of a message's values: fields always looked at are not left out any more."""
+        for path, span in fields(data).items():
+            if span in touched:
+                self._looked[path] = self._looked.get(path, 0) + 1
+            elif span in untouched:
+                self._passed_by.add(path)
+
+    def _left_out(self, data: bytes) -> dict[Span, str]:
+        """The values of a message that may be left out."""
+        found = leaves(data)
+        if found:
+            always = {path for path, times in self._looked.items() if times > 1} - self._passed_by
+            for path, span in fields(data).items() if always else ():
+                if path in always:
+                    found.pop(span, None)
+        return found
+
+    def _named(self, classes: Classes, rest: bytes, spans: Mapping[Span, str], shift: int) -> int:
         if self._numbers % MOST_CLASSES == MOST_CLASSES - 1:
             self.forget()
         self._numbers += 1
-        classes[rest] = self._numbers
-        return self._numbers
+        number = self._numbers
+        while spans:
+            template = classes.template(rest, _shifted(spans, shift))
+            if template is None:
+                break
+            left = template.rest(rest)
+            if left not in template.less:
+                template.numbers[left] = number
+                self.leaves[number] = spans
+                return number
+            spans = template.less[left]
+        classes[rest] = number
+        return number
 
     def grown(self, path: Sequence[Any], known: Grown) -> Grown:
         """The object of what was met; ``known`` is that of the first part of it."""
@@ -134,7 +189,7 @@ class Tables:
                 return None
             if self._size + len(taken.octets) > LARGEST or self._grown > MOST_GROWN:
                 self.forget()
-            found = self._states[key] = State(taken.octets, kinds, grown, invokes)
+            found = self._states[key] = State(taken.octets, kinds, grown, taken.leafy, invokes)
             self._size += len(taken.octets)
         return found
 
@@ -161,8 +216,14 @@ class Tables:
         for classes in self._roles.values():
             classes.clear()
         self.seen.clear()
+        self.leaves.clear()
         self.initial.clear()
         self._states.clear()
         self._root, self._grown = Grown(), 0
         self._size = self._steps = 0
         self.epoch += 1
+
+
+def _shifted(spans: Mapping[Span, str], shift: int) -> dict[Span, str]:
+    """The spans in a message without its invokeID, which stands before all of them."""
+    return {(begin - shift, end - shift): kind for (begin, end), kind in spans.items()}

@@ -9,9 +9,9 @@ from __future__ import annotations
 import struct
 from typing import Any
 
-from mmsverify.audit.classes import ERROR, split
+from mmsverify.audit.classes import ERROR, Classes, split
 from mmsverify.audit.learned import Learned, Listener
-from mmsverify.audit.tables import NEW, PRESENT, Classes
+from mmsverify.audit.tables import NEW, PRESENT
 from mmsverify.audit.trail import ListedTrail
 from mmsverify.formats import mcap_records as rec
 from mmsverify.formats.stretch import DisorderError, Stretch
@@ -94,7 +94,7 @@ def _follow(
             break
         if invoke in invokes:  # the last of them, should two sides use the same
             relation = len(invokes) - 1 - invokes[::-1].index(invoke)
-        known = classes.get(rest)
+        known = classes.get(rest) or classes.find(rest)
         step = None if known is None else state.steps.get(known << 4 | relation + 1)
         if step is None:
             break

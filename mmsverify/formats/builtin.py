@@ -29,7 +29,10 @@ class Primitive:
         self.head = head
         self.kind = kind
         self.bounds = bounds
-        self.readers: dict[int, Reader] = {head: _reader(_bounded(read, kind, bounds) if bounds else read)}
+        # Of an INTEGER with bounds, and of text, not every value is one.
+        free = kind in ("OCTET STRING", "BIT STRING") or (kind == "INTEGER" and not bounds)
+        bounded = _bounded(read, kind, bounds) if bounds else read
+        self.readers: dict[int, Reader] = {head: _covered(bounded, kind) if free else _reader(bounded)}
         if kind == "NULL":
             self.readers[constructed(head)] = _constructed_null
 
@@ -51,6 +54,14 @@ def _reader(read: Read) -> Reader:
         return read(walk.octets, begin, end)
 
     return plain
+
+
+def _covered(read: Read, kind: str) -> Reader:
+    def covered(walk: Walk, begin: int, end: int, depth: int) -> Any:  # noqa: ARG001
+        value = read(walk.octets, begin, end)
+        return value if walk.cover is None else walk.cover(kind, begin, end, value)
+
+    return covered
 
 
 def _constructed_null(walk: Walk, begin: int, end: int, depth: int) -> None:  # noqa: ARG001

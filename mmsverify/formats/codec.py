@@ -19,15 +19,32 @@ MAX_DEPTH = 64
 """Elements nested deeper than this are refused: no PDU of MMS needs it, and a recursion must end."""
 
 
+Cover = Callable[[str, int, int, Any], Any]
+"""Takes the ASN.1 name of a type, begin and end of contents octets, the value; gives what stands for it.
+
+Asked only of contents for which any other octets, as many, would be a value as well (of an INTEGER: any that
+are its shortest form).
+"""
+
+
 class Walk:
-    """One message being read: its octets, remarks on what is tolerated, and where fields stand."""
+    """One message being read: its octets, remarks on what is tolerated, and where fields stand.
 
-    __slots__ = ("octets", "remarks", "spans")
+    ``cover`` gives what stands in place of values.
+    """
 
-    def __init__(self, octets: bytes, spans: list[tuple[str, int, int]] | None = None) -> None:
+    __slots__ = ("cover", "octets", "remarks", "spans")
+
+    def __init__(
+        self,
+        octets: bytes,
+        spans: list[tuple[str, int, int]] | None = None,
+        cover: Cover | None = None,
+    ) -> None:
         self.octets = octets
         self.remarks: list[str] = []
         self.spans = spans
+        self.cover = cover
 
 
 Reader = Callable[[Walk, int, int, int], Any]

@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 from mmsverify.errors import DecodeError
 from mmsverify.formats import cited, companion, compiled
 from mmsverify.formats.ber import EncodeError, Fault, header, long_length, shown
-from mmsverify.formats.codec import Misfit, Type, Walk
+from mmsverify.formats.codec import Cover, Misfit, Type, Walk
 from mmsverify.formats.schema import Schema
 from mmsverify.resources import asn1_dir
 
@@ -31,6 +31,7 @@ __all__ = [
     "encode",
     "encoded_statements",
     "error_class_code",
+    "fields",
     "locate",
     "named",
     "number",
@@ -108,8 +109,13 @@ def _functions() -> dict[int, compiled.Read]:
     return compiled.root_table(_root())
 
 
-def decode(octets: bytes) -> Pdu:
-    """Read one whole PDU of ISO 9506-2 with GB/T 16720.3 clause 7; anything else is a `DecodeError`."""
+def decode(octets: bytes, cover: Cover | None = None) -> Pdu:
+    """Read one whole PDU of ISO 9506-2 with GB/T 16720.3 clause 7; anything else is a `DecodeError`.
+
+    ``cover`` gives what is to stand in place of values of which the octets could be any.
+    """
+    if cover is not None:
+        return _opened(octets, *_read_any(octets, cover))
     if type(octets) is not bytes:
         octets = bytes(octets)
     remarks: tuple[str, ...] = ()
@@ -122,6 +128,10 @@ def decode(octets: bytes) -> Pdu:
         kind, content = _functions()[octets[0]](octets, begin, end, 1)
     except compiled.GIVES_UP:
         kind, content, remarks = _read_any(octets)
+    return _opened(octets, kind, content, remarks)
+
+
+def _opened(octets: bytes, kind: str, content: Any, remarks: tuple[str, ...]) -> Pdu:
     try:
         return _pdu(kind, content, remarks)
     except companion.Misplaced as misplaced:
@@ -129,9 +139,9 @@ def decode(octets: bytes) -> Pdu:
         raise DecodeError(str(misplaced), offset=place[0], path=f"{kind}.detail") from None
 
 
-def _read_any(octets: bytes) -> tuple[str, Any, tuple[str, ...]]:
+def _read_any(octets: bytes, cover: Cover | None = None) -> tuple[str, Any, tuple[str, ...]]:
     """The long way, which knows what is wrong."""
-    walk = Walk(octets)
+    walk = Walk(octets, cover=cover)
     try:
         kind, content = _read(walk)
         return kind, content, tuple(walk.remarks)
@@ -170,6 +180,25 @@ def locate(octets: bytes, path: Sequence[str]) -> tuple[int, int] | None:
         trail.append(span)
         if span[0] == path[-1] and _leads(trail, path):
             found = span[1:]
+    return found
+
+
+def fields(octets: bytes) -> list[tuple[tuple[str, ...], int, int]]:
+    """All fields of a PDU: the names that lead to each, from the outside in, begin and end of its contents.
+
+    Items of lists have no names. Octets that do not decode have no fields.
+    """
+    spans: list[tuple[str, int, int]] = []
+    try:
+        _read(Walk(octets, spans))
+    except Fault:
+        return []
+    found, trail = [], list[tuple[str, int, int]]()
+    for span in reversed(spans):
+        while trail and not (trail[-1][1] <= span[1] and span[2] <= trail[-1][2]):
+            trail.pop()
+        trail.append(span)
+        found.append((tuple(name for name, _, _ in trail if name[0] != "["), span[1], span[2]))
     return found
 
 

@@ -10,7 +10,9 @@ import pickle
 import random
 import sys
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -79,6 +81,22 @@ def muddled(source: Path, path: Path, seed: int, count: int) -> None:
             writer.add(number * 1_000_000, message.channel, message.data)
 
 
+@pytest.fixture(autouse=True)
+def compares(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(learned, "COMPARES", True)
+
+
+@pytest.mark.parametrize(("name", "count"), [("diverse", 2400), ("faulty", 1500), ("mid-operation", 2500)])
+def test_logs_of_all_kinds_are_told_alike(
+    name: str, count: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Values that nobody looks at, findings all the time, a beginning that is missing and gaps."""
+    path = tmp_path / "made.mcap"
+    monkeypatch.syspath_prepend(str(Path(__file__).parents[2] / "bench"))
+    import_module("logs").LOGS[name].write(path, count)
+    same_in_all_ways(path, times=5)
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_muddled_conversations_are_told_alike(seed: int, tmp_path: Path) -> None:
     path = tmp_path / "made.mcap"
@@ -126,10 +144,10 @@ def test_a_conversation_that_repeats_itself_is_not_thought_about(
     asked = 0
     judged = Device.message
 
-    def counted(device: Device, message: TraceMessage) -> Iterator[Finding]:
+    def counted(device: Device, message: TraceMessage, read: Any = None) -> Iterator[Finding]:
         nonlocal asked
         asked += 1
-        return judged(device, message)
+        return judged(device, message, read)
 
     monkeypatch.setattr(Device, "message", counted)
     path = tmp_path / "made.mcap"

@@ -51,7 +51,8 @@ def exactly(value: Any) -> Known:
     """The one value."""
     if isinstance(value, bool):
         return YES if value else NO
-    return (value, value) if isinstance(value, int) else _bit(value)
+    # A number is kept as such, and not as what a message knows of it besides.
+    return (int(value), int(value)) if isinstance(value, int) else _bit(value)
 
 
 @cache
