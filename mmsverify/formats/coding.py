@@ -198,10 +198,12 @@ class Code:
     ) -> str:
         """The contents by the identifier that was found."""
         (value,) = self._fresh("x")
+        # Of several alternatives few will ever come: what stands inside them is not written in line.
+        depth, level = deep if len(heads) <= 2 else (deep[0], _IN_LINE)
         for number, head in enumerate(heads):
             self._add("else:" if number == len(heads) - 1 else f"{'el' * (number > 0)}if {found} == {head}:")
             self._indent += 1
-            self._add(f"{value} = {self._contents(kind, head, inside, *deep)}")
+            self._add(f"{value} = {self._contents(kind, head, inside, depth, level)}")
             self._indent -= 1
         return value
 

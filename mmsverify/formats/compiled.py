@@ -22,7 +22,7 @@ from mmsverify.formats.coding import Code, called, possible_heads
 Read = Callable[[bytes, int, int, int], Any]
 """Reads contents octets: the message, begin, end, depth."""
 
-OFTEN = 200
+OFTEN = 64
 _SHORT, _MANY = 32, 4096
 _LOOKED_UP: Mapping[str, Callable[[bytes, int, int], str]] = {
     "BIT STRING": ber.read_bits,
