@@ -13,7 +13,7 @@ import re
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from mmsverify.audit.classes import split
+from mmsverify.audit.learning.classes import split
 from mmsverify.formats.mcap_write import TraceWriter
 from mmsverify.formats.trace import Channel
 from mmsverify.samples.cell import Cell

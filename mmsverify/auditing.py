@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from mmsverify.audit.annotate import annotate
-from mmsverify.audit.lasting import of_thread
+from mmsverify.audit.learning.lasting import of_thread
 from mmsverify.audit.replay import Replay
 from mmsverify.audit.spoken import Listener
 from mmsverify.errors import InputError, ProfileError

@@ -13,7 +13,7 @@ from mmsverify.audit import contents
 from mmsverify.audit.acquaintance import Acquaintance
 from mmsverify.audit.conformance import Conformance
 from mmsverify.audit.exchange import Asked, Association
-from mmsverify.audit.marks import marked
+from mmsverify.audit.learning.marks import marked
 from mmsverify.audit.notifications import Notifications
 from mmsverify.audit.objects import Objects
 from mmsverify.audit.performing import Performing

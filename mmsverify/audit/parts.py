@@ -7,9 +7,9 @@ from functools import cached_property
 from typing import Any
 
 from mmsverify.audit.device import Device
-from mmsverify.audit.lasting import Lasting
+from mmsverify.audit.learning.lasting import Lasting
+from mmsverify.audit.learning.tables import Tables as LearnedTables
 from mmsverify.audit.modbus import Access, Plan, Server
-from mmsverify.audit.tables import Tables as LearnedTables
 from mmsverify.audit.telling import History, Place
 from mmsverify.audit.vr import Controller, Numbering, Scans
 from mmsverify.concrete.automaton import Automaton, TooManyStatesError

@@ -9,16 +9,16 @@ from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
-from mmsverify.audit.classes import split, whole
 from mmsverify.audit.device import Device
-from mmsverify.audit.lasting import Lasting
-from mmsverify.audit.learned import Learned, Listener, Span
+from mmsverify.audit.learning.classes import split, whole
+from mmsverify.audit.learning.lasting import Lasting
+from mmsverify.audit.learning.learned import Learned, Listener, Span
+from mmsverify.audit.learning.walk import Walk
 from mmsverify.audit.lookahead import INITIATES, Lookahead, association, link, offers_additional
 from mmsverify.audit.modbus import Server
 from mmsverify.audit.parts import FRAMEWORK, ROBOT, SIGNALS, Parts, Tables
 from mmsverify.audit.telling import History, Place
 from mmsverify.audit.vr import Controller
-from mmsverify.audit.walk import Walk
 from mmsverify.concrete.belief.coverage import Coverage
 from mmsverify.errors import InputError, UsageError
 from mmsverify.formats.mcap import McapTrace
@@ -28,7 +28,7 @@ from mmsverify.formats.trace import Channel, TraceMessage
 from mmsverify.results import Finding
 
 if TYPE_CHECKING:
-    from mmsverify.audit.kernel import Kernel
+    from mmsverify.audit.learning.kernel import Kernel
 
 SAMPLES = "vr.Sample"
 LONG = 16 << 20
@@ -78,8 +78,8 @@ class Replay:
         if kernel is False or self._exact or (kernel is None and self.trace.octets < LONG):
             return Walk()
         try:
-            from mmsverify.audit.kernel import Kernel
-            from mmsverify.audit.mirror import Mirror
+            from mmsverify.audit.learning.kernel import Kernel
+            from mmsverify.audit.learning.mirror import Mirror
         except ImportError:
             if kernel:
                 raise UsageError(

@@ -18,9 +18,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from mmsverify.audit import learned, tables
-from mmsverify.audit.classes import split
 from mmsverify.audit.device import Device
+from mmsverify.audit.learning import learned, tables
+from mmsverify.audit.learning.classes import split
 from mmsverify.audit.telling import History
 from mmsverify.auditing import audit_traces
 from mmsverify.concrete.belief.values import ABSENT

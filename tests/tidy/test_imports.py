@@ -72,6 +72,7 @@ HOMES = {
     "zstandard": {"formats"},
     "fsspec": {"formats"},
     "aiohttp": {"formats"},
+    "numba": {"audit"},
 }
 THIRD_PARTY = {"errors": set[str](), "events": set[str](), "results": set[str](), "model": set[str](),
                "concrete": {"numpy", "numba"}, "symbolic": {"z3"}}  # fmt: skip

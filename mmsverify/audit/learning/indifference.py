@@ -9,10 +9,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from functools import partial
 
-from mmsverify.audit.leaves import Opaque, Span, read
-from mmsverify.audit.part import Judge, P
-from mmsverify.audit.snapshots import Mark, Own, Snapshot
-from mmsverify.audit.tables import State, Tables
+from mmsverify.audit.learning.leaves import Opaque, Span, read
+from mmsverify.audit.learning.part import Judge, P
+from mmsverify.audit.learning.snapshots import Mark, Own, Snapshot
+from mmsverify.audit.learning.tables import State, Tables
 from mmsverify.audit.telling import History
 from mmsverify.formats.trace import TraceMessage
 

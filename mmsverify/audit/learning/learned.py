@@ -12,16 +12,16 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, Generic
 
-from mmsverify.audit.classes import Classes, Split
-from mmsverify.audit.indifference import attempt, compared
-from mmsverify.audit.leaves import Span as Place
-from mmsverify.audit.leaves import TouchedError, read, real
-from mmsverify.audit.marks import Index, InvokeId
-from mmsverify.audit.part import Judge, P, Read
-from mmsverify.audit.snapshots import Mark, Own
-from mmsverify.audit.tables import NEW, PRESENT, State, Step, Tables, event
+from mmsverify.audit.learning.classes import Classes, Split
+from mmsverify.audit.learning.indifference import attempt, compared
+from mmsverify.audit.learning.leaves import Span as Place
+from mmsverify.audit.learning.leaves import TouchedError, read, real
+from mmsverify.audit.learning.marks import Index, InvokeId
+from mmsverify.audit.learning.part import Judge, P, Read
+from mmsverify.audit.learning.snapshots import Mark, Own
+from mmsverify.audit.learning.tables import NEW, PRESENT, State, Step, Tables, event
+from mmsverify.audit.learning.trail import ListedTrail, Trail
 from mmsverify.audit.telling import History
-from mmsverify.audit.trail import ListedTrail, Trail
 from mmsverify.formats.stretch import Stretch
 from mmsverify.formats.trace import TraceMessage
 from mmsverify.results import Finding
@@ -226,6 +226,11 @@ class Learned(Generic[P]):
                     return False
                 touched[error.span] = 1
                 del spans[error.span]
+            except Exception:  # a hidden value has no type: what was tried with which, nobody can say
+                if not spans:
+                    return False
+                touched |= dict.fromkeys(spans, 1)
+                spans.clear()
         self.tables.note(message.data, touched, spans)
         if touched:
             self._narrow(message, touched)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from itertools import pairwise
 
-from mmsverify.audit.leaves import INTEGER, Span
+from mmsverify.audit.learning.leaves import INTEGER, Span
 
 _REQUEST, _RESPONSE, ERROR = 0xA0, 0xA1, 0xA2
 _WHOLE = frozenset({0xA3, *range(0xA8, 0xAE)})

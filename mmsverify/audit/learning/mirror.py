@@ -12,10 +12,10 @@ from typing import Any, NamedTuple
 import numba
 import numpy as np
 
-from mmsverify.audit import kernel_loops as loops
-from mmsverify.audit.classes import ERROR
-from mmsverify.audit.learned import Listener
-from mmsverify.audit.tables import MOST_MARKS, State, Step, Tables
+from mmsverify.audit.learning import kernel_loops as loops
+from mmsverify.audit.learning.classes import ERROR
+from mmsverify.audit.learning.learned import Listener
+from mmsverify.audit.learning.tables import MOST_MARKS, State, Step, Tables
 
 STATES, POOL = 1 << 15, 1 << 22
 _SLOTS = 1 << 16

@@ -14,7 +14,7 @@ import numpy as np
 from numba import types
 from numba.extending import intrinsic, register_jitable
 
-from mmsverify.audit.tables import MOST_MARKS
+from mmsverify.audit.learning.tables import MOST_MARKS
 
 _U = np.uint64
 UNKNOWN, DISORDER = 1, 2

@@ -10,10 +10,10 @@ from collections.abc import Collection, Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from mmsverify.audit.classes import Classes
-from mmsverify.audit.leaves import Path, Span, fields, leaves
-from mmsverify.audit.marks import InvokeId
-from mmsverify.audit.snapshots import Snapshot, Snapshots
+from mmsverify.audit.learning.classes import Classes
+from mmsverify.audit.learning.leaves import Path, Span, fields, leaves
+from mmsverify.audit.learning.marks import InvokeId
+from mmsverify.audit.learning.snapshots import Snapshot, Snapshots
 from mmsverify.concrete.belief.partial import Key
 from mmsverify.model import ModelData
 

@@ -11,12 +11,12 @@ from typing import Any
 
 import numpy as np
 
-from mmsverify.audit import kernel_loops as loops
-from mmsverify.audit.learned import Learned, Listener
-from mmsverify.audit.mirror import DEVICES, Arrays, Mirror
-from mmsverify.audit.tables import Step, event
-from mmsverify.audit.trail import ListedTrail, Origin
-from mmsverify.audit.walk import Walk
+from mmsverify.audit.learning import kernel_loops as loops
+from mmsverify.audit.learning.learned import Learned, Listener
+from mmsverify.audit.learning.mirror import DEVICES, Arrays, Mirror
+from mmsverify.audit.learning.tables import Step, event
+from mmsverify.audit.learning.trail import ListedTrail, Origin
+from mmsverify.audit.learning.walk import Walk
 from mmsverify.formats import mcap_records as rec
 from mmsverify.formats.stretch import DisorderError, Stretch
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Protocol
 
-from mmsverify.audit.tables import PRESENT, Step
+from mmsverify.audit.learning.tables import PRESENT, Step
 from mmsverify.formats.stretch import Stretch
 
 Origin = tuple[int | None, int]

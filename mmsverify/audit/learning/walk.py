@@ -9,10 +9,10 @@ from __future__ import annotations
 import struct
 from typing import Any
 
-from mmsverify.audit.classes import ERROR, Classes, split
-from mmsverify.audit.learned import Learned, Listener
-from mmsverify.audit.tables import NEW, PRESENT
-from mmsverify.audit.trail import ListedTrail
+from mmsverify.audit.learning.classes import ERROR, Classes, split
+from mmsverify.audit.learning.learned import Learned, Listener
+from mmsverify.audit.learning.tables import NEW, PRESENT
+from mmsverify.audit.learning.trail import ListedTrail
 from mmsverify.formats import mcap_records as rec
 from mmsverify.formats.stretch import DisorderError, Stretch
 

@@ -18,8 +18,8 @@ from dataclasses import dataclass
 from operator import itemgetter
 from typing import Any
 
-from mmsverify.audit.leaves import KINDS, LEAVES, Make, Span, place_of, plain, real
-from mmsverify.audit.marks import Index, InvokeId
+from mmsverify.audit.learning.leaves import KINDS, LEAVES, Make, Span, place_of, plain, real
+from mmsverify.audit.learning.marks import Index, InvokeId
 from mmsverify.concrete.belief.partial import Partial
 from mmsverify.formats.trace import TraceMessage
 from mmsverify.model import ModelData, Row

@@ -1,0 +1,122 @@
+"""What was learned of one recording is right for the next; recordings in any order of file are told alike."""
+
+from __future__ import annotations
+
+import random
+import sys
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from mcap.writer import CompressionType, Writer
+
+from mmsverify.audit.learning import lasting
+from mmsverify.auditing import audit_traces
+from mmsverify.formats.mcap import TraceWriter, read_trace
+from mmsverify.formats.trace import Channel, TraceMessage
+from mmsverify.resources import traces_dir
+from mmsverify.results import Finding
+
+sys.path.append(str(Path(__file__).parents[1] / "quality"))
+
+from robot_conversations import conversation
+
+WAYS = ({"exact": True}, {"kernel": False}, {"kernel": True})
+
+
+def told(path: Path, **way: bool) -> tuple[int, int, list[Finding]]:
+    audit = audit_traces([path], profile=None, model=None, **way)  # type: ignore[arg-type]
+    return audit.inputs[0].messages, audit.inputs[0].skipped, list(audit.findings)
+
+
+def alike(path: Path) -> list[Finding]:
+    found = told(path, exact=True)
+    for way in WAYS[1:] * 2:
+        assert told(path, **way) == found, way
+    return found[2]
+
+
+def unordered(path: Path, messages: Iterable[TraceMessage], chunk: int) -> None:
+    """The messages as they come, whatever their times are, in chunks of so many octets."""
+    with path.open("wb") as file:
+        writer = Writer(file, chunk_size=chunk, compression=CompressionType.ZSTD)
+        writer.start()
+        schemas, channels = dict[str, int](), dict[str, int]()
+        for message in messages:
+            channel = message.channel
+            if channel.topic not in channels:
+                name = channel.schema_name
+                if name and name not in schemas:
+                    schemas[name] = writer.register_schema(name, "asn1", b"")
+                channels[channel.topic] = writer.register_channel(
+                    channel.topic, channel.message_encoding, schemas.get(name, 0), dict(channel.metadata)
+                )
+            writer.add_message(channels[channel.topic], message.time, message.data, message.time)
+        writer.finish()  # type: ignore[no-untyped-call]
+
+
+def renamed(message: TraceMessage, vmd: str, time: int) -> TraceMessage:
+    names = {**message.metadata, "vmd": vmd} if "vmd" in message.metadata else {"name": vmd}
+    topic = message.topic.replace(message.metadata.get("vmd", message.metadata.get("name", "")), vmd)
+    return replace(message, time=time, channel=replace(message.channel, topic=topic, metadata=names))
+
+
+@pytest.fixture(autouse=True)
+def fresh(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(lasting, "_OF_THREAD", lasting._OfThread())
+
+
+def test_robots_with_other_programs_are_told_alike_in_turn(tmp_path: Path) -> None:
+    paths = [tmp_path / f"{seed}.mcap" for seed in (11, 12)]
+    for seed, path in zip((11, 12), paths, strict=True):
+        conversation(seed, 150).write(path)
+    paths += [traces_dir() / "two-clients.mcap", traces_dir() / "faulty-press.mcap"]
+    exact = {path: told(path, exact=True) for path in paths}
+    chance = random.Random(5)
+    for _ in range(16):
+        path, way = chance.choice(paths), chance.choice(WAYS[1:])
+        assert told(path, **way) == exact[path]
+
+
+@pytest.mark.parametrize("chunk", [400, 4_000, 1 << 20])
+def test_chunks_out_of_order_are_brought_into_order(chunk: int, tmp_path: Path) -> None:
+    messages = [replace(m, time=10 * m.index) for m in read_trace(traces_dir() / "two-clients.mcap")]
+    shuffled = messages[:]
+    random.Random(chunk).shuffle(shuffled)
+    unordered(tmp_path / "made.mcap", shuffled, chunk)
+    found = alike(tmp_path / "made.mcap")
+    expected = told(traces_dir() / "two-clients.mcap", exact=True)[2]
+    assert [(each.index, each.message) for each in found] == [(each.index, each.message) for each in expected]
+
+
+def test_two_robots_in_one_recording_are_told_alike(tmp_path: Path) -> None:
+    path = tmp_path / "made.mcap"
+    sources = [conversation(seed, 60) for seed in (21, 22)]
+    files = [tmp_path / f"{number}.mcap" for number in range(2)]
+    for source, file in zip(sources, files, strict=True):
+        source.write(file)
+    robots = [list(read_trace(file)) for file in files]
+    with TraceWriter(path) as writer:
+        for number in range(max(map(len, robots)) * 3):
+            for which, robot in enumerate(robots):
+                said = renamed(robot[number % len(robot)], f"cell{which}", 10 * number + which)
+                writer.add(said.time, said.channel, said.data)
+    alike(path)
+
+
+def test_an_association_that_is_met_late_makes_the_beginning_uncertain(tmp_path: Path) -> None:
+    """Its first message answers a request that nobody has seen, performed at any time before."""
+    messages = [
+        m for m in read_trace(traces_dir() / "production-run.mcap") if m.message_encoding == "mms-ber"
+    ]
+    answers = [m for m in messages if m.metadata["sender"] == "server" and m.data[0] == 0xA1]
+    late = Channel.mms(messages[0].metadata["vmd"], "a9", "server")
+    path = tmp_path / "made.mcap"
+    with TraceWriter(path) as writer:
+        for message in messages[:120]:
+            writer.add(message.time, message.channel, message.data)
+        writer.add(messages[120].time, late, answers[4].data)
+        for message in messages[120:]:
+            writer.add(message.time + 1, message.channel, message.data)
+    alike(path)
