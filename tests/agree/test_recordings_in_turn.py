@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 import sys
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
@@ -37,11 +37,12 @@ def alike(path: Path) -> list[Finding]:
     return found[2]
 
 
-def unordered(path: Path, messages: Iterable[TraceMessage], chunk: int) -> None:
+def unordered(path: Path, messages: Iterable[TraceMessage], profile: Mapping[str, str], chunk: int) -> None:
     """The messages as they come, whatever their times are, in chunks of so many octets."""
     with path.open("wb") as file:
         writer = Writer(file, chunk_size=chunk, compression=CompressionType.ZSTD)
         writer.start()
+        writer.add_metadata("mmsverify.profile", dict(profile))
         schemas, channels = dict[str, int](), dict[str, int]()
         for message in messages:
             channel = message.channel
@@ -81,10 +82,11 @@ def test_robots_with_other_programs_are_told_alike_in_turn(tmp_path: Path) -> No
 
 @pytest.mark.parametrize("chunk", [400, 4_000, 1 << 20])
 def test_chunks_out_of_order_are_brought_into_order(chunk: int, tmp_path: Path) -> None:
-    messages = [replace(m, time=10 * m.index) for m in read_trace(traces_dir() / "two-clients.mcap")]
+    trace = read_trace(traces_dir() / "two-clients.mcap")
+    messages = [replace(message, time=10 * message.index) for message in trace]
     shuffled = messages[:]
     random.Random(chunk).shuffle(shuffled)
-    unordered(tmp_path / "made.mcap", shuffled, chunk)
+    unordered(tmp_path / "made.mcap", shuffled, trace.profile, chunk)
     found = alike(tmp_path / "made.mcap")
     expected = told(traces_dir() / "two-clients.mcap", exact=True)[2]
     assert [(each.index, each.message) for each in found] == [(each.index, each.message) for each in expected]
