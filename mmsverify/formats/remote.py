@@ -211,6 +211,8 @@ def listed(url: Url, suffixes: tuple[str, ...]) -> list[Url]:
         with _told(url):
             found = list(_matches(url) if patterned else _below(url))
     except InputError as error:
+        # Without what it came from: where Dask is loaded, that would be sent to other processes, too.
+        error.__cause__ = error.__context__ = error.__traceback__ = None
         return [replace(url, trouble=error)]
     files = [each for each in found if each.suffix.lower() in suffixes]
     itself = {each.address.rstrip("/") for each in found} == {url.address.rstrip("/")}

@@ -118,8 +118,8 @@ def test_where_nothing_comes_again_nothing_is_learned_for_a_while(
     monkeypatch.setattr(learned, "_TRIAL", 4)
     monkeypatch.setattr(learned, "_REST", 20)
     path = tmp_path / "made.mcap"
-    muddle(5, path, 12)
-    same_in_all_ways(path)
+    muddle(5, path, 8)
+    same_in_all_ways(path, times=2)
 
 
 @pytest.mark.slow
@@ -134,8 +134,8 @@ def test_what_is_forgotten_costs_no_finding(tmp_path: Path, monkeypatch: pytest.
     monkeypatch.setattr(tables, "LARGEST", 100_000)
     monkeypatch.setattr(tables, "MOST_CLASSES", 20)
     path = tmp_path / "made.mcap"
-    muddle(3, path, 20)
-    same_in_all_ways(path)
+    muddle(3, path, 6)
+    same_in_all_ways(path, times=2)
 
 
 def test_a_conversation_that_repeats_itself_is_not_thought_about(

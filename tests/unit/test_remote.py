@@ -272,6 +272,9 @@ def test_why_a_folder_is_not_listed_is_told(capsys: pytest.CaptureFixture[str], 
         assert line(capsys, url) == f"mmsverify: {url}: the server answers 403 Forbidden"
         [found] = trace_locations([url])
         assert pickle.loads(pickle.dumps(found)) == found
+        assert isinstance(found, Url)
+        assert found.trouble is not None
+        assert (found.trouble.__cause__, found.trouble.__context__) == (None, None)
 
 
 @pytest.mark.parametrize("ranges", [True, False])
