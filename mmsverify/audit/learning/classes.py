@@ -62,6 +62,7 @@ class Template:
     """Which octets are left out of messages: ``numbers`` of the classes, by what is left.
 
     Where it was found that values are looked at after all, ``less`` holds those that are still left out.
+    ``met``: how many there were that differ in the values only.
     """
 
     def __init__(self, spans: Mapping[Span, str], size: int) -> None:
@@ -73,6 +74,7 @@ class Template:
         self._kept = tuple((a, b) for a, b in list(pairwise(ends))[::2] if a < b)
         self.numbers: dict[bytes, int] = {}
         self.less: dict[bytes, Mapping[Span, str]] = {}
+        self.met: dict[bytes, int] = {}
 
     def rest(self, octets: bytes) -> bytes:
         """What is left of a message."""

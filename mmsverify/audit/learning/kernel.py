@@ -22,8 +22,8 @@ from mmsverify.formats.stretch import DisorderError, Stretch
 
 _LATEST = 1 << 62  # ns; times beyond are not counted by the loops
 _TRIED, _WORTH = 64, 8
-"""After so many calls, so many messages must have been passed at each, or the loops are not worth it."""
-_AGAIN = 16  # stretches, and then it is tried again
+"""Where so many were not known, so many must have been passed for each, or the loops are not worth it."""
+_AGAIN = 3  # stretches, and then it is tried again
 
 
 class Kernel:
@@ -37,7 +37,7 @@ class Kernel:
         self._listeners: dict[int, Listener] = {}
         self._known: object = None
         self._walking = 0
-        self._calls = self._passed = 0
+        self._missed = self._passed = 0
 
     def start(self, stretch: Stretch) -> None:
         """As `Walk.start`."""
@@ -46,7 +46,7 @@ class Kernel:
             self._walking -= 1
         elif stretch.last > _LATEST:
             self._walking = _AGAIN
-        self._calls = self._passed = 0
+        self._missed = self._passed = 0
         if stretch.known is not self._known or (self._walking > 0) != walked:
             self._begin_anew()
         self._known = stretch.known
@@ -97,10 +97,12 @@ class Kernel:
             self._take(stretch)
             if why == loops.DISORDER:
                 raise DisorderError
-            if self._calls > _TRIED and self._passed < _WORTH * self._calls:
-                return self._give_up(stretch, at)
-            if at >= stretch.size or not self._teach(stretch, at):
+            if at >= stretch.size:
                 return at
+            if not self._teach(stretch, at):
+                self._missed += 1
+                hopeless = self._missed > _TRIED and self._passed < _WORTH * self._missed
+                return self._give_up(stretch, at) if hopeless else at
             self._give(stretch)
 
     def _give_up(self, stretch: Stretch, at: int) -> int:
@@ -140,7 +142,6 @@ class Kernel:
     def _take(self, stretch: Stretch) -> None:
         """Where the devices are after the loops."""
         arrays = self._mirror.arrays
-        self._calls += 1
         self._passed = int(arrays.counts[loops.PASSED])
         stretch.last = int(arrays.counts[loops.LAST])
         for own, learned in zip(arrays.devices, self._devices, strict=False):

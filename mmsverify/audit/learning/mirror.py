@@ -136,19 +136,20 @@ class Mirror:
 
     def enter(self, listener: Listener, rest: bytes, state: State, event: int, step: Step) -> bool:
         """Enter a step and the class of its event; false where it is not new."""
-        at = self.state(state)
+        at, role, whole = self.state(state), self.role(listener), listener.whole or rest[0] > ERROR
+        slot, new = self._class(role, rest, event >> 4, whole=whole)
         if (at, event) in self._entered:
-            return False
+            return new
         self._entered.add((at, event))
         number = self.step(step)
         self.code.put_step(self._where["entries"], _SLOTS - 1, at, event, number)
-        slot = self._class(self.role(listener), rest, event >> 4, whole=listener.whole or rest[0] > ERROR)
         self.arrays.steps[number, loops.FROM : loops.CLASS + 1] = at, event, slot
         return True
 
-    def _class(self, role: int, rest: bytes, number: int, *, whole: bool) -> int:
-        """The slot of a class."""
+    def _class(self, role: int, rest: bytes, number: int, *, whole: bool) -> tuple[int, bool]:
+        """The slot of a class, and whether that is new, or another class has taken its place."""
         key = role, rest
+        new = key not in self._known
         if key not in self._known:
             size = 0 if whole else 4 + (rest[1] & 0x7F if rest[1] >= 0x80 else 0)
             head = np.uint64(loops.NONE if whole else int.from_bytes(rest[:size], "little"))
@@ -160,7 +161,10 @@ class Mirror:
                 self._where["classes"], _SLOTS - 1, head, role, where, len(tail), number
             )
             self._known[key] = int(slot)
-        return self._known[key]
+        slot = self._known[key]
+        new = new or self.arrays.classes[slot, loops.NUMBER] != number
+        self.arrays.classes[slot, loops.NUMBER] = number
+        return slot, new
 
 
 def _numbered(thing: Any, numbers: dict[Any, int], things: list[Any]) -> int:

@@ -27,6 +27,8 @@ MOST_MARKS = 64
 """Of a state that is kept."""
 MOST_GROWN = 1 << 14
 
+DIVERSE = 3
+"""So many messages that differ in values only are one class; of less, each may come again and again."""
 PRESENT = -1
 """The source of a mark that comes from the message itself."""
 NEW = -1
@@ -112,7 +114,8 @@ class Tables:
         found = classes.find(rest)
         if found is not None:
             return found
-        return self._named(classes, rest, {} if whole else self._left_out(data), len(data) - len(rest))
+        spans = {} if whole else self._left_out(data)
+        return self._named(classes, rest, spans, len(data) - len(rest), DIVERSE)
 
     def narrow(
         self, classes: Classes, number: int, rest: bytes, data: bytes, touched: Iterable[Span]
@@ -126,7 +129,7 @@ class Tables:
         template.numbers[template.rest(rest)] = 0
         template.less[template.rest(rest)] = less
         classes.forget(number)
-        self.seen.add(self._named(classes, rest, less, shift))
+        self.seen.add(self._named(classes, rest, less, shift, 1))
 
     def note(self, data: bytes, touched: Collection[Span], untouched: Collection[Span]) -> None:
         """What was found out of a message's values: fields always looked at are not left out any more."""
@@ -146,7 +149,10 @@ class Tables:
                     found.pop(span, None)
         return found
 
-    def _named(self, classes: Classes, rest: bytes, spans: Mapping[Span, str], shift: int) -> int:
+    def _named(
+        self, classes: Classes, rest: bytes, spans: Mapping[Span, str], shift: int, diverse: int
+    ) -> int:
+        """The number of a new class: one that leaves values out, if so many others have been met."""
         if self._numbers % MOST_CLASSES == MOST_CLASSES - 1:
             self.forget()
         self._numbers += 1
@@ -157,6 +163,9 @@ class Tables:
                 break
             left = template.rest(rest)
             if left not in template.less:
+                template.met[left] = template.met.get(left, 0) + 1
+                if template.met[left] < diverse:
+                    break
                 template.numbers[left] = number
                 self.leaves[number] = spans
                 return number
