@@ -5,8 +5,8 @@
 The logs of ``logs.py``, of MESSAGES messages (1,000,000) or a share of that, are unpacked only (bare), read
 by ``iter_messages`` of the mcap package, and audited: in pure Python, and by the kernel where there is one.
 Told are thousands of messages a second of CPU time, the median of ROUNDS (3) rounds. Each measurement is a
-process of its own; in it the audit is done twice, and the second is called warm. The ratios are those of the
-warm audit; the size is the greatest of that process. pm4py's token replay gets the routine as an event log,
+process of its own; in it the same audit is done ``WARM`` times, and the last is called warm: nothing is learned
+any more, as in the later recordings of a fleet. The ratios are those of the warm audit; the size is the greatest of that process. pm4py's token replay gets the routine as an event log,
 where pm4py is installed (extra ``bench``).
 
 ``--memory`` audits the routine of MESSAGES and of five times as many instead, and tells the processes' sizes;
@@ -43,6 +43,7 @@ from logs import LOGS, Log, write_routine  # noqa: E402
 
 Work = Callable[[Path], Callable[[], object]]
 """Makes ready for what is then timed."""
+WARM = 8
 LONGER, MOST, SLACK = 5, 400e6, 1.05
 HEADS = (
     f"{'thousands/s':19}{'way':8}{'messages':>10}{'MiB':>6}{'bare':>8}{'mcap':>7}{'cold':>8}{'warm':>8}"
@@ -116,7 +117,7 @@ def peak() -> float:
     return sum(int(line.split()[1]) for line in lines if line.startswith("VmHWM")) / 1024
 
 
-def median(work: Work, path: Path, rounds: int, times: int = 2) -> Measured:
+def median(work: Work, path: Path, rounds: int, times: int = WARM) -> Measured:
     """The medians of some rounds, each in a process of its own."""
     context = multiprocessing.get_context("spawn")
     found = []
@@ -129,7 +130,7 @@ def median(work: Work, path: Path, rounds: int, times: int = 2) -> Measured:
 def lines(name: str, log: Log, path: Path, rounds: int) -> Iterator[str]:
     """The rows of the table for one log."""
     count = sum(len(batch) for batch in read_trace(path).batches())
-    bare, read = (count / median(work, path, rounds).warm / 1000 for work in (decompressed, iterated))
+    bare, read = (count / median(work, path, rounds, 2).warm / 1000 for work in (decompressed, iterated))
     size = path.stat().st_size / (1 << 20)
     for way, told in ways().items():
         if log.exact and way != "python":
