@@ -5,9 +5,10 @@
 The logs of ``logs.py``, of MESSAGES messages (1,000,000) or a share of that, are unpacked only (bare), read
 by ``iter_messages`` of the mcap package, and audited: in pure Python, and by the kernel where there is one.
 Told are thousands of messages a second of CPU time, the median of ROUNDS (3) rounds. Each measurement is a
-process of its own; in it the same audit is done ``WARM`` times, and the last is called warm: nothing is learned
-any more, as in the later recordings of a fleet. The ratios are those of the warm audit; the size is the greatest of that process. pm4py's token replay gets the routine as an event log,
-where pm4py is installed (extra ``bench``).
+process of its own; in it the same audit is done ``WARM`` times, and the last is called warm: nothing is
+learned any more, as in the later recordings of a fleet. The ratios are those of the warm audit; the size is
+the greatest of that process. pm4py's token replay gets the routine as an event log, where pm4py is installed
+(extra ``bench``).
 
 ``--memory`` audits the routine of MESSAGES and of five times as many instead, and tells the processes' sizes;
 the exit code tells whether the longer took more than 400 MB, or more than the shorter.

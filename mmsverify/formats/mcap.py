@@ -91,12 +91,13 @@ class McapTrace:
         index = last = 0
         with _open(self.path, self._store) as file:
             for block in blocks:
-                data = self._unpacked(file, block)
-                wrong = partial(self._wrong, block)
-                ends = block.position + block.size
-                stretch = Stretch(data, index, last, known, wrong, block.cut, (block.position, ends))
+                wrong, ends = partial(self._wrong, block), block.position + block.size
+                data, span = self._unpacked(file, block), (block.position, ends)
+                stretch = Stretch(data, index, last, known, wrong, block.cut, span)
+                del data
                 yield stretch
                 index, last = index + len(stretch.places), stretch.last
+                stretch.data = b""  # the next one can stand where it stood, which the processor still knows
 
     def _unpacked(self, file: BinaryIO, block: Block) -> bytes:
         try:
