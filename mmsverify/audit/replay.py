@@ -139,6 +139,8 @@ class Replay:
             at = self._walk.follow(stretch, at)
             if at == stretch.size:
                 break
+            if stretch.defines(at):
+                self._catch_up(stretch)  # while the messages passed still have their channels
             number = stretch.number(at)
             at, message = stretch.next(at)
             self._tick(stretch.octets(at), stretch.index + len(stretch.places))
@@ -151,6 +153,9 @@ class Replay:
                 yield from judge.hear(message, stretch)
             else:
                 yield from judge(message, stretch)
+        self._catch_up(stretch)
+
+    def _catch_up(self, stretch: Stretch) -> None:
         for device in self._devices.values():
             device.catch_up(stretch)
         for controller in self._learners.values():

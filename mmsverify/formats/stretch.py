@@ -87,6 +87,10 @@ class Stretch:
         opcode, length = rec.HEAD.unpack_from(self.data, at)
         return opcode, at + rec.HEAD.size + length
 
+    def defines(self, at: int) -> bool:
+        """Whether a definition stands at that offset, after which a number may mean another channel."""
+        return self.record(at)[0] in (rec.SCHEMA, rec.CHANNEL)
+
     def next(self, at: int) -> tuple[int, TraceMessage | None]:
         """Pass one record of any kind: the offset behind it, and its message if it is one.
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import random
+import struct
 import sys
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
@@ -13,6 +15,7 @@ from mcap.writer import CompressionType, Writer
 
 from mmsverify.audit.learning import lasting
 from mmsverify.auditing import audit_traces
+from mmsverify.formats import mcap_records as rec
 from mmsverify.formats.mcap import TraceWriter, read_trace
 from mmsverify.formats.trace import Channel, TraceMessage
 from mmsverify.resources import traces_dir
@@ -105,6 +108,70 @@ def test_two_robots_in_one_recording_are_told_alike(tmp_path: Path) -> None:
                 said = renamed(robot[number % len(robot)], f"cell{which}", 10 * number + which)
                 writer.add(said.time, said.channel, said.data)
     alike(path)
+
+
+def test_links_that_come_before_the_first_message_are_not_forgotten(tmp_path: Path) -> None:
+    trace = read_trace(traces_dir() / "two-clients.mcap")
+    said = [message for message in trace if message.message_encoding == "mms-ber"][40:]
+    events = [("cell-controller", "open"), ("maintenance", "open"), ("cell-controller", "gap")] * 2
+    path = tmp_path / "made.mcap"
+    with TraceWriter(path) as writer:
+        writer.add_profile(trace.profile)
+        for time, (connection, event) in enumerate(events):
+            link = {"connection": connection, "event": event, "role": "mms"}
+            writer.add(time, Channel.link("weld9"), json.dumps(link).encode())
+        for message in said:
+            writer.add(message.time, message.channel, message.data)
+    alike(path)
+
+
+def test_messages_have_the_channel_that_was_theirs(tmp_path: Path) -> None:
+    """A channel's number means another one later in the chunk: what was said before is told of the first."""
+    messages = list(read_trace(traces_dir() / "production-run.mcap"))
+    said = [message for message in messages if message.message_encoding == "mms-ber"]
+    path = tmp_path / "made.mcap"
+    request = next(message for message in said if message.data[0] == 0xA0)
+    conclude = [(said[0].channel, b"\xab\x00"), (said[1].channel, b"\xac\x00")]
+    beginning = [(message.channel, message.data) for message in said[:2]]
+    parts = [*beginning, (request.channel, request.data), *conclude]
+    chunks: list[bytes] = []
+    known = _Numbers(chunks)
+    for time, (channel, data) in enumerate(parts * 8):
+        if channel is said[0].channel and data == conclude[0][1]:
+            known.define(1, Channel.mms("other", "b1", "client"))
+        known.say(time, channel, data)
+    octets = b"".join(chunks)
+    chunk = (
+        struct.pack("<QQQI", 0, 40, len(octets), 0) + b"\0\0\0\0" + struct.pack("<Q", len(octets)) + octets
+    )
+    path.write_bytes(rec.MAGIC + rec.HEAD.pack(rec.CHUNK, len(chunk)) + chunk)
+    assert len(alike(path)) >= 8
+
+
+class _Numbers:
+    """Records of a chunk, in which a number may be given to another channel."""
+
+    def __init__(self, chunks: list[bytes]) -> None:
+        self._chunks = chunks
+        self._given: dict[int, Channel] = {}
+
+    def define(self, number: int, channel: Channel) -> None:
+        pairs = b"".join(map(_text, (part for pair in channel.metadata.items() for part in pair)))
+        names = _text(channel.topic) + _text(channel.message_encoding)
+        body = struct.pack("<HH", number, 0) + names + struct.pack("<I", len(pairs)) + pairs
+        self._chunks.append(rec.HEAD.pack(rec.CHANNEL, len(body)) + body)
+        self._given[number] = channel
+
+    def say(self, time: int, channel: Channel, data: bytes) -> None:
+        number = 1 if channel.metadata["sender"] == "client" else 2
+        if self._given.get(number) != channel:
+            self.define(number, channel)
+        size = rec.MESSAGE_FIXED + len(data)
+        self._chunks.append(rec.MESSAGE_HEAD.pack(rec.MESSAGE, size, number, 0, time, time) + data)
+
+
+def _text(text: str) -> bytes:
+    return struct.pack("<I", len(text)) + text.encode()
 
 
 def test_an_association_that_is_met_late_makes_the_beginning_uncertain(tmp_path: Path) -> None:

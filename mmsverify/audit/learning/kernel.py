@@ -36,6 +36,7 @@ class Kernel:
         self._devices: list[Learned[Any]] = []
         self._listeners: dict[int, Listener] = {}
         self._known: object = None
+        self._stretch: Stretch | None = None
         self._walking = 0
         self._missed = self._passed = 0
 
@@ -49,7 +50,7 @@ class Kernel:
         self._missed = self._passed = 0
         if stretch.known is not self._known or (self._walking > 0) != walked:
             self._begin_anew()
-        self._known = stretch.known
+        self._known, self._stretch = stretch.known, stretch
         if not self._walking:
             arrays = self._mirror.room(stretch.size // rec.MESSAGE_HEAD.size + 1)
             arrays.counts[:] = 0, stretch.last
@@ -78,6 +79,8 @@ class Kernel:
         if learned not in self._devices:
             if len(self._devices) == DEVICES:
                 return
+            if self._stretch is not None:  # it may have heard of a link already
+                learned.catch_up(self._stretch)
             learned.trail = KernelTrail(self._mirror, len(self._devices))
             self._devices.append(learned)
         device, arrays = self._devices.index(learned), self._mirror.arrays

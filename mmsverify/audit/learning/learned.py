@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import Any, Generic
 
-from mmsverify.audit.learning.classes import Classes, Split
+from mmsverify.audit.learning.classes import Classes, Split, whole
 from mmsverify.audit.learning.indifference import attempt, compared
 from mmsverify.audit.learning.leaves import Span as Place
 from mmsverify.audit.learning.leaves import TouchedError, read, real
@@ -248,7 +248,7 @@ class Learned(Generic[P]):
 
     def _narrow(self, message: TraceMessage, touched: Iterable[Place]) -> None:
         """From now on these values are part of the class of their message, be it one of before."""
-        split, classes = self._heard[message.topic]
+        split, classes = self._heard.get(message.topic, (whole, Classes()))
         parts = split(message.data)
         number = None if parts is None else classes.find(parts[0])
         if parts is not None and number is not None:
