@@ -6,9 +6,9 @@ Eight recordings each: random samples of a controller, of which nothing can be l
 500,000); robots with faults all the time (0.1 times); a robot's routine, which is mostly looked up (4 times).
 The command line audits them with one process, with two, and with a LocalCluster of two workers, in turns,
 ROUNDS (3) times. Seconds of the wall clock, with all that it takes to start, to learn and to end: medians,
-how many times as fast as one process, and as two. What one process learns of a robot each of several learns anew:
-the more there is to be learned, and the less to be done, the less they gain. Aims, where there is nothing to
-be learned: two processes 1.7 times one, the cluster 0.7 times two.
+how many times as fast as one process, and as two. What one process learns of a robot each of several learns
+anew: the more there is to be learned, and the less to be done, the less they gain. Aims, where there is
+nothing to be learned: two processes 1.7 times one, the cluster 0.7 times two.
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ from mmsverify.audit.annotate import annotate
 from mmsverify.audit.learning.lasting import of_thread
 from mmsverify.audit.replay import Replay
 from mmsverify.audit.spoken import Listener
-from mmsverify.errors import InputError, ProfileError
+from mmsverify.errors import InputError, MmsverifyError, ProfileError
 from mmsverify.events import MmsEvent
 from mmsverify.fleet.tasks import Done, Engine, Task, here, unreadable
 from mmsverify.formats.locations import Location, Url, located
@@ -213,7 +213,13 @@ def _audit(
         kernel=manner.kernel,
         passed=passed,
     )
-    findings = list(_findings(replay, trace.path))
+    try:
+        findings = list(_findings(replay, trace.path))
+    except MmsverifyError:
+        raise
+    except BaseException:
+        of_thread().clear()
+        raise
     if trace.truncated and not replay.messages and not findings:
         raise InputError(
             "cut off before the end of its first message",

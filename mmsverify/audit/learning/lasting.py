@@ -30,6 +30,10 @@ class Lasting:
         self._things.move_to_end(key)
         return cast(T, self._things[key])
 
+    def clear(self) -> None:
+        """Keep nothing: after an interrupt in the middle of something nobody knows what is whole."""
+        self._things.clear()
+
 
 class _OfThread(threading.local):
     def __init__(self) -> None:
