@@ -124,6 +124,7 @@ class Replay:
                     self.messages = stretch.index + len(stretch.places)
                     self.events = self.messages - self.skipped
         except DisorderError:
+            assert not self._merged, "what has been brought into order is in order"
             self._merged = True
             return False
         except _AgainError:

@@ -119,18 +119,15 @@ def messages(data: bytes, base: int, known: Definitions, *, cut: bool) -> list[M
             channel = channels.get(number) or _nameless(number, channels)
             found.append((time, base + at, channel, data[at + MESSAGE_HEAD.size : following]))
             if len(found) > MOST_MESSAGES:
-                raise too_many()
+                raise InputError(
+                    f"a chunk of more than {MOST_MESSAGES} messages", cure="write smaller chunks"
+                )
         elif opcode in (SCHEMA, CHANNEL):
             known.learn(opcode, data[at + HEAD.size : following])
         at = following
     if at < size and not cut:
         raise InputError("the last record leads out of its chunk")
     return found
-
-
-def too_many() -> InputError:
-    """What is said of a chunk of more than ``MOST_MESSAGES``."""
-    return InputError(f"a chunk of more than {MOST_MESSAGES} messages", cure="write smaller chunks")
 
 
 def channel_of(number: int, known: Definitions) -> Channel:

@@ -108,8 +108,6 @@ class Stretch:
                 return following, None
             if following - at < rec.MESSAGE_HEAD.size:
                 raise InputError(f"a message record of {following - at - rec.HEAD.size} octets")
-            if len(self.places) >= rec.MOST_MESSAGES:
-                raise rec.too_many()
         except InputError as error:
             raise self.wrong(error) from None
         message = self.message(at)

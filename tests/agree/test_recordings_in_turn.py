@@ -175,6 +175,28 @@ def _text(text: str) -> bytes:
     return struct.pack("<I", len(text)) + text.encode()
 
 
+@pytest.mark.parametrize("begin", [2**63 - 40, 2**63 + 1, 2**64 - 100])
+def test_times_of_64_bits_are_told_alike(begin: int, tmp_path: Path) -> None:
+    path = tmp_path / "made.mcap"
+    with TraceWriter(path) as writer:
+        for message in list(read_trace(traces_dir() / "two-clients.mcap"))[:58]:
+            writer.add(begin + message.index, message.channel, message.data)
+    alike(path)
+
+
+@pytest.mark.parametrize("octets", [1, 2, 3, 5, 9])
+def test_lengths_in_more_octets_than_they_need_are_told_alike(octets: int, tmp_path: Path) -> None:
+    path = tmp_path / "made.mcap"
+    said = list(read_trace(traces_dir() / "production-run.mcap"))[:40]
+    with TraceWriter(path) as writer:
+        for number, message in enumerate(said * 3):
+            data = message.data
+            if data[0] in (0xA0, 0xA1, 0xA3) and data[1] < 0x80:
+                data = bytes((data[0], 0x80 | octets)) + data[1].to_bytes(octets) + data[2:]
+            writer.add(number, message.channel, data)
+    alike(path)
+
+
 @pytest.mark.parametrize("number", range(1, 60, 7))
 def test_after_an_interrupt_nothing_is_taken_for_learned(
     number: int, monkeypatch: pytest.MonkeyPatch
@@ -187,8 +209,8 @@ def test_after_an_interrupt_nothing_is_taken_for_learned(
             raise KeyboardInterrupt
         return given(*args)
 
-    monkeypatch.setattr(mirror, "_row", row)
-    with suppress(KeyboardInterrupt):
+    with monkeypatch.context() as patched, suppress(KeyboardInterrupt):
+        patched.setattr(mirror, "_row", row)
         for _ in range(3):
             told(path, kernel=True)
     assert told(path, kernel=True) == expected

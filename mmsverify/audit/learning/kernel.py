@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from mmsverify.audit.learning import kernel_loops as loops
+from mmsverify.audit.learning.classes import ERROR
 from mmsverify.audit.learning.learned import Learned, Listener
 from mmsverify.audit.learning.mirror import DEVICES, Arrays, Mirror
 from mmsverify.audit.learning.tables import Step, event
@@ -21,6 +22,7 @@ from mmsverify.formats import mcap_records as rec
 from mmsverify.formats.stretch import DisorderError, Stretch
 
 _LATEST = 1 << 62  # ns; times beyond are not counted by the loops
+_LONGEST = 0x82  # the first octet of a length, of those that the loops read
 _TRIED, _WORTH = 64, 8
 """Where so many were not known, so many must have been passed for each, or the loops are not worth it."""
 _AGAIN = 3  # stretches, and then it is tried again
@@ -45,15 +47,13 @@ class Kernel:
         walked = self._walking > 0
         if self._walking > 0:
             self._walking -= 1
-        elif stretch.last > _LATEST:
-            self._walking = _AGAIN
         self._missed = self._passed = 0
         if stretch.known is not self._known or (self._walking > 0) != walked:
             self._begin_anew()
         self._known, self._stretch = stretch.known, stretch
         if not self._walking:
             arrays = self._mirror.room(stretch.size // rec.MESSAGE_HEAD.size + 1)
-            arrays.counts[:] = 0, stretch.last
+            arrays.counts[:] = 0, min(stretch.last, _LATEST)
             stretch.places = _Places(arrays)
             for number, learned in enumerate(self._devices):
                 learned.trail = KernelTrail(self._mirror, number)
@@ -92,6 +92,8 @@ class Kernel:
         """As `Walk.follow`."""
         if self._walking:
             return self._walk.follow(stretch, at)
+        if stretch.last > _LATEST:
+            return self._give_up(stretch, at)
         if self._mirror.full or any(self._mirror.stale(each.tables) for each in self._devices):
             self._anew(stretch)
         self._give(stretch)
@@ -162,6 +164,8 @@ class Kernel:
         parts, learned = listener.split(stretch.data[at + rec.MESSAGE_HEAD.size : end]), listener.learned
         number = None if parts is None else listener.classes.get(parts[0])
         if learned.state is None or parts is None or number is None or self._mirror.full:
+            return False
+        if not listener.whole and parts[0][0] <= ERROR and parts[0][1] > _LONGEST:
             return False
         happens = event(number, learned.relation(parts[1]))
         step = learned.state.steps.get(happens)

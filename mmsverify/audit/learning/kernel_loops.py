@@ -261,9 +261,9 @@ def follow(
         latest, state = get(own, 1, LATEST, 0), get(own, 1, STATE, 0)
         guess = get(steps, STEP_ROW, latest, GUESS) if latest >= 0 else latest
         step = step_of(rest, end - rest, head, role, relation, state, guess, classes, entries, mask, steps)
-        if step < 0 or state < 0:
-            break
         time = np.int64(word(place + 15))
+        if step < 0 or state < 0 or time < 0:  # a time of 64 bits is for others
+            break
         if time < last:
             why = DISORDER
             break

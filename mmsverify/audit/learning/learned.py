@@ -30,6 +30,8 @@ LONGEST = 2048
 """Octets of a message that may have a class: of longer ones few are said twice, and all would be kept."""
 _TRIAL = 256  # so many messages are not known, and then it is seen how many were
 _REST = 8192  # messages
+MOST_LOOKED_AT = 4096
+"""Values that are remembered to have been looked at; then only those of messages that still matter are."""
 COMPARES = False
 """Whether it is seen to that values which nobody looks at make no difference. They cannot; it takes long."""
 
@@ -221,6 +223,7 @@ class Learned(Generic[P]):
             except TouchedError as error:
                 self._looked_at.add((error.message.index, error.span))
                 if error.message.index != message.index:
+                    self.tables.note(error.message.data, [error.span], ())
                     self._narrow(error.message, [error.span])
                     self._put_in_order(part)
                     return False
@@ -243,6 +246,9 @@ class Learned(Generic[P]):
 
     def _put_in_order(self, part: P) -> None:
         """Let the part hold values that were looked at as what they are."""
+        if len(self._looked_at) > MOST_LOOKED_AT:
+            held = {mark.index for mark in self._marks if isinstance(mark, TraceMessage)}
+            self._looked_at = {(index, span) for index, span in self._looked_at if index in held}
         self._intern(part)
         self._part = None if self.state is not None else part
 

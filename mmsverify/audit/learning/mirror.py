@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
+from weakref import WeakKeyDictionary
 
 import numba
 import numpy as np
@@ -17,7 +18,7 @@ from mmsverify.audit.learning.classes import ERROR
 from mmsverify.audit.learning.learned import Listener
 from mmsverify.audit.learning.tables import MOST_MARKS, State, Step, Tables
 
-STATES, POOL = 1 << 15, 1 << 22
+STATES, POOL = 1 << 13, 1 << 22
 _SLOTS = 1 << 16
 """Of the tables for classes and for steps, of which half are used."""
 _CHANNELS = 1 << 16
@@ -82,7 +83,7 @@ class Mirror:
         self._known: dict[tuple[int, bytes], int] = {}
         self._entered: set[tuple[int, int]] = set()
         self._pooled = 0
-        self._epochs: dict[int, tuple[int, Tables]] = {}
+        self._epochs: WeakKeyDictionary[Tables, int] = WeakKeyDictionary()
         self.arrays = _arrays()
         self._where = {name: array.ctypes.data for name, array in self.arrays._asdict().items()}
 
@@ -111,7 +112,7 @@ class Mirror:
 
     def stale(self, tables: Tables) -> bool:
         """Whether the tables have forgotten what they were: their classes have other numbers now."""
-        return self._epochs.setdefault(id(tables), (tables.epoch, tables))[0] != tables.epoch
+        return self._epochs.setdefault(tables, tables.epoch) != tables.epoch
 
     def state(self, state: State) -> int:
         """The number of a state."""

@@ -224,6 +224,7 @@ class Tables:
         """Make room: what was learned is learned anew."""
         for classes in self._roles.values():
             classes.clear()
+        self._roles.clear()
         self.seen.clear()
         self.leaves.clear()
         self.initial.clear()
