@@ -3,7 +3,7 @@
     python bench/fleet.py [MESSAGES [ROUNDS]]
 
 Eight recordings each: random samples of a controller, of which nothing can be learned (0.15 times MESSAGES,
-500,000); robots with faults all the time (0.1 times); a robot's routine, which is mostly looked up (4 times).
+1,000,000); robots with faults all the time (0.05 times); a robot's routine, mostly looked up (twice).
 The command line audits them with one process, with two, and with a LocalCluster of two workers, in turns,
 ROUNDS (3) times. Seconds of the wall clock, with all that it takes to start, to learn and to end: medians,
 how many times as fast as one process, and as two. What one process learns of a robot each of several learns
@@ -24,7 +24,7 @@ from pathlib import Path
 from logs import LOGS
 
 RECORDINGS = 8
-FLEETS: Mapping[str, float] = {"VR, scan": 0.15, "faulty": 0.1, "routine": 4}
+FLEETS: Mapping[str, float] = {"VR, scan": 0.15, "faulty": 0.05, "routine": 2}
 WAYS: Mapping[str, Sequence[str]] = {
     "one process": (),
     "two processes": ("--jobs", "2"),
@@ -59,7 +59,7 @@ def fleet(name: str, count: int, rounds: int) -> None:
 
 def main() -> None:
     """Print the table."""
-    count, rounds = (int(text) for text in (sys.argv[1:] + ["500000", "3"][len(sys.argv) - 1 :]))
+    count, rounds = (int(text) for text in (sys.argv[1:] + ["1000000", "3"][len(sys.argv) - 1 :]))
     for name, times in FLEETS.items():
         fleet(name, round(count * times), rounds)
 
