@@ -47,7 +47,7 @@ Work = Callable[[Path], Callable[[], object]]
 WARM = 8
 LONGER, MOST, SLACK = 5, 400e6, 1.05
 HEADS = (
-    f"{'thousands/s':19}{'way':8}{'messages':>10}{'MiB':>6}{'bare':>8}{'mcap':>7}{'cold':>8}{'warm':>8}"
+    f"{'thousands/s':19}{'way':8}{'messages':>10}{'MiB':>6}{'bare':>8}{'mcap':>7}{'cold':>8}{'warm':>9}"
     f"{'warm/mcap':>11}{'warm/bare':>11}{'peak MiB':>10}"
 )
 
@@ -139,7 +139,7 @@ def lines(name: str, log: Log, path: Path, rounds: int) -> Iterator[str]:
         found = median(partial(audited, clean=log.clean, exact=log.exact, **told), path, rounds)
         cold, warm = (count / seconds / 1000 for seconds in (found.cold, found.warm))
         yield (
-            f"{name:19}{way:8}{count:10,}{size:6.1f}{bare:8,.0f}{read:7,.0f}{cold:8,.1f}{warm:8,.1f}"
+            f"{name:19}{way:8}{count:10,}{size:6.1f}{bare:8,.0f}{read:7,.0f}{cold:8,.1f}{warm:9,.1f}"
             f"{warm / read:11.2f}{warm / bare:11.3f}{found.size:10.0f}"
         )
 

@@ -14,7 +14,7 @@ from typing import Annotated
 
 import typer
 
-from mmsverify import __version__
+import mmsverify
 from mmsverify.commands.audit import audit
 from mmsverify.commands.check import check
 from mmsverify.commands.clauses import clauses
@@ -57,7 +57,7 @@ app.command("findings")(findings)
 
 def _version(wanted: bool) -> None:
     if wanted:
-        typer.echo(f"mmsverify {__version__}")
+        typer.echo(f"mmsverify {mmsverify.__version__}")
         raise typer.Exit
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from html import escape
 
-from mmsverify import __version__
+import mmsverify
 from mmsverify.report.audit_text import summary
 from mmsverify.report.order import by_input
 from mmsverify.report.wording import cells, counted, instant, printable
@@ -53,7 +53,7 @@ def render(audit: Audit) -> str:
 <h1>Audit</h1>
 <p>{_text(summary(audit))}</p>
 {_inputs(audit)}
-{body}<footer>mmsverify {_text(__version__)}</footer>
+{body}<footer>mmsverify {_text(mmsverify.__version__)}</footer>
 </body>
 </html>
 """

@@ -13,7 +13,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
-from mmsverify import __version__
+import mmsverify
 from mmsverify.report.order import by_input, ordered
 from mmsverify.report.wording import instant, plain, printable
 from mmsverify.results import Audit, AuditedInput, Finding
@@ -33,7 +33,7 @@ def _run(audit: Audit) -> dict[str, Any]:
     rule_at = {rule["id"]: number for number, rule in enumerate(rules)}
     path_at = {path: number for number, (path, _) in enumerate(inputs)}
     return {
-        "tool": {"driver": {"name": "mmsverify", "version": __version__, "rules": rules}},
+        "tool": {"driver": {"name": "mmsverify", "version": mmsverify.__version__, "rules": rules}},
         "artifacts": [_artifact(path, entry) for path, entry in inputs],
         "results": [
             _result(finding, rule_at[finding.rule], path_at[finding.path])
