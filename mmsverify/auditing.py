@@ -78,7 +78,7 @@ def audit_traces(
     jobs: int | None = None,
     scheduler: str | None = None,
     client: Client | None = None,
-    resume: Path | None = None,
+    resume: str | Path | None = None,
 ) -> Audit:
     """Replay every trace against its model. An unreadable file is a finding; the others are audited.
 
@@ -94,7 +94,7 @@ def audit_traces(
     workers that cannot be started, a folder that is not for results.
     """
     manner = _manner(profile, model, variant, exact=exact, kernel=kernel)
-    sharing = Sharing(jobs, scheduler, client, resume)
+    sharing = Sharing(jobs, scheduler, client, None if resume is None else Path(resume))
     done = dict(_results(paths, manner, sharing, progress))
     inputs: list[AuditedInput] = []
     findings: list[Finding] = []
@@ -117,11 +117,11 @@ def audit_each(
     jobs: int | None = None,
     scheduler: str | None = None,
     client: Client | None = None,
-    resume: Path | None = None,
+    resume: str | Path | None = None,
 ) -> Iterator[Audit]:
     """The same, an `Audit` a recording, as they come: no more than what is under way is held in memory."""
     manner = _manner(profile, model, variant, exact=exact, kernel=kernel)
-    sharing = Sharing(jobs, scheduler, client, resume)
+    sharing = Sharing(jobs, scheduler, client, None if resume is None else Path(resume))
     results = _results(paths, manner, sharing, progress)
     return (Audit([] if entry is None else [entry], found) for _, (entry, found) in results)
 

@@ -91,6 +91,8 @@ def audit(
     paths = trace_locations(traces)
     if annotate is not None:
         _require_one(annotate, paths, format)
+    if exact and kernel:
+        raise UsageError("looks nothing up", place="--exact", cure="leave out --kernel, or --exact")
     given: Options = {
         "profile": profile, "model": model, "variant": variant, "exact": exact, "kernel": kernel,
         "jobs": jobs, "scheduler": _scheduler(engine, scheduler, jobs), "resume": resume,

@@ -24,11 +24,13 @@ from mmsverify.formats.locations import Location
 def shared(task: Task, paths: Sequence[Location], *, jobs: int) -> Iterator[tuple[int, Done]]:
     """The engine, with so many processes."""
     waiting = dict.fromkeys(range(len(paths)))
+    first = True
     while waiting:
         suspects: list[int] = []
-        for number, done in _round(task, paths, list(waiting), jobs, suspects):
+        for number, done in _round(task, paths, list(waiting), jobs, suspects, first=first):
             del waiting[number]
             yield number, done
+        first = False
         for suspect in suspects:
             again: list[int] = []
             yield from _round(task, paths, [suspect], 1, again)
@@ -38,17 +40,21 @@ def shared(task: Task, paths: Sequence[Location], *, jobs: int) -> Iterator[tupl
 
 
 def _round(
-    task: Task, paths: Sequence[Location], numbers: Sequence[int], jobs: int, broken: list[int]
-) -> Iterator[tuple[int, Done]]:
-    """Do these until a process dies; those that were under way then are noted as ``broken``."""
-    pool = ProcessPoolExecutor(min(jobs, len(numbers)), mp_context=get_context("spawn"), initializer=_begin)
+    task: Task, paths: Sequence[Location], numbers: Sequence[int], jobs: int, broken: list[int], *,
+    first: bool = False,
+) -> Iterator[tuple[int, Done]]:  # fmt: skip
+    """Do these until a process dies; those that were under way then are noted as ``broken``.
+
+    ``first``: no process has been started yet.
+    """
+    workers = min(jobs, len(numbers))
+    pool = _started(workers) if first else _pool(workers)
 
     def submit(number: int) -> Future[Done]:
         with held_back():  # this may start a process
             return pool.submit(task, paths[number])
 
     try:
-        _require_start(pool)
         yield from _until_broken(submit, numbers, 2 * jobs, broken)
     finally:
         pool.shutdown(cancel_futures=True)
@@ -90,12 +96,22 @@ def _begin() -> None:
     threading.Thread(target=watch, daemon=True).start()
 
 
-def _require_start(pool: ProcessPoolExecutor) -> None:
-    """Tell processes that cannot even start from those that a recording kills."""
-    try:
-        with held_back():
-            started = pool.submit(int)
-        started.result()
-    except BrokenProcessPool:
-        cure = "in a script, call it under if __name__ == '__main__'; or use one process"
-        raise UsageError("other processes cannot be started", place="jobs", cure=cure) from None
+def _pool(workers: int) -> ProcessPoolExecutor:
+    return ProcessPoolExecutor(workers, mp_context=get_context("spawn"), initializer=_begin)
+
+
+def _started(workers: int) -> ProcessPoolExecutor:
+    """A pool of which a process has started: tells those that never can from those that something kills."""
+    for last in (False, True):
+        pool = _pool(workers)
+        try:
+            with held_back():
+                started = pool.submit(int)
+            started.result()
+            return pool
+        except BrokenProcessPool:
+            pool.shutdown(cancel_futures=True)
+            if last:
+                break
+    cure = "in a script, call it under if __name__ == '__main__'; or use one process"
+    raise UsageError("other processes cannot be started", place="jobs", cure=cure)
