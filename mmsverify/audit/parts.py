@@ -35,9 +35,7 @@ class Parts:
         self.profile = tables.get(ROBOT, {})
 
     def _load(self, name: str) -> ModelData:
-        return self._lasting.get(
-            ("model", name, self._variant), lambda: load(name, models_dir(), self._variant)
-        )
+        return load(name, models_dir(), self._variant)
 
     # Robots.
 

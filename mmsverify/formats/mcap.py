@@ -91,7 +91,7 @@ class McapTrace:
         index = last = 0
         with _open(self.path, self._store) as file:
             for block in blocks:
-                wrong, ends = partial(self._wrong, block), block.position + block.size
+                wrong, ends = partial(block.wrong, place=self.path), block.position + block.size
                 data, span = self._unpacked(file, block), (block.position, ends)
                 stretch = Stretch(data, index, last, known, wrong, block.cut, span)
                 del data
@@ -103,11 +103,7 @@ class McapTrace:
         try:
             return block.unpack(file)
         except InputError as error:
-            raise self._wrong(block, error) from None
-
-    def _wrong(self, block: Block, error: InputError) -> InputError:
-        cause = f"octet {block.position}: {error.cause}"
-        return InputError(cause, place=self.path, cure=error.cure)
+            raise block.wrong(error, self.path) from None
 
     def _merged(self) -> Iterator[Stretch]:
         index = last = read = 0

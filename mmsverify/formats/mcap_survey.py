@@ -43,7 +43,11 @@ class Block:
             data = self.unpack(file)
             return rec.messages(data, self.number << 32, known, cut=self.cut)
         except InputError as error:
-            raise InputError(f"octet {self.position}: {error.cause}", cure=error.cure) from None
+            raise self.wrong(error) from None
+
+    def wrong(self, error: InputError, place: str = "") -> InputError:
+        """The error with where in the file its block begins."""
+        return InputError(f"octet {self.position}: {error.cause}", place=place, cure=error.cure)
 
     def unpack(self, file: BinaryIO) -> bytes:
         """The records of this block."""

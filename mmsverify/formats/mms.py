@@ -9,7 +9,7 @@ returns a `Pdu` or raises `DecodeError`. What a message means is not decided her
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, NamedTuple
@@ -173,13 +173,9 @@ def locate(octets: bytes, path: Sequence[str]) -> tuple[int, int] | None:
     except Fault as fault:
         raise _decode_error(fault) from None
     found = None
-    trail: list[tuple[str, int, int]] = []
-    for span in reversed(spans):
-        while trail and not (trail[-1][1] <= span[1] and span[2] <= trail[-1][2]):
-            trail.pop()
-        trail.append(span)
-        if span[0] == path[-1] and _leads(trail, path):
-            found = span[1:]
+    for trail in _trails(spans):
+        if trail[-1][0] == path[-1] and _leads(trail, path):
+            found = trail[-1][1:]
     return found
 
 
@@ -193,13 +189,9 @@ def fields(octets: bytes) -> list[tuple[tuple[str, ...], int, int]]:
         _read(Walk(octets, spans))
     except Fault:
         return []
-    found, trail = [], list[tuple[str, int, int]]()
-    for span in reversed(spans):
-        while trail and not (trail[-1][1] <= span[1] and span[2] <= trail[-1][2]):
-            trail.pop()
-        trail.append(span)
-        found.append((tuple(name for name, _, _ in trail if name[0] != "["), span[1], span[2]))
-    return found
+    return [
+        (tuple(name for name, _, _ in trail if name[0] != "["), *trail[-1][1:]) for trail in _trails(spans)
+    ]
 
 
 def named(type_name: str, value: int) -> str:
@@ -308,6 +300,16 @@ def _decode_error(fault: Fault) -> DecodeError:
 
 def _dotted(path: Sequence[str]) -> str:
     return ".".join(reversed(path)).replace(".[", "[")
+
+
+def _trails(spans: Sequence[tuple[str, int, int]]) -> Iterator[list[tuple[str, int, int]]]:
+    """Each field with those around it, from the outside in; the list is the same one, changed, every time."""
+    trail: list[tuple[str, int, int]] = []
+    for span in reversed(spans):
+        while trail and not (trail[-1][1] <= span[1] and span[2] <= trail[-1][2]):
+            trail.pop()
+        trail.append(span)
+        yield trail
 
 
 def _leads(trail: Sequence[tuple[str, int, int]], path: Sequence[str]) -> bool:

@@ -1,4 +1,4 @@
-"""What a thread keeps from one recording to the next: models as they were loaded, and what was learned.
+"""What a thread keeps from one recording to the next: automata and what was learned.
 
 Nothing in it depends on which recordings were audited before, or in which order, but the time that it saves.
 """
@@ -12,7 +12,7 @@ from typing import Any, TypeVar, cast
 
 T = TypeVar("T")
 MOST = 12
-"""Things that are kept; a model and its tables are two, for each variant and profile."""
+"""Things that are kept: tables for each variant and profile, and the arrays of the kernel."""
 
 
 class Lasting:

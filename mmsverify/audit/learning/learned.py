@@ -279,9 +279,6 @@ class Learned(Generic[P]):
         self._grown = self.tables.grown(part.grown, self._grown)
         self._marks = list(taken.marks)
         self.state = self.tables.state(taken, self._grown)
-        self._took()
-
-    def _took(self) -> None:
         self.invokes = tuple(int(mark) for mark in self._marks if isinstance(mark, InvokeId))
 
     def _sources(
