@@ -16,7 +16,7 @@ from worked_additions import ADDITION_PDUS
 from worked_pdus import NAMES, check_names
 from worked_programs import PROGRAM_PDUS
 
-from mmsverify.formats import asn1_text, mms, schema
+from mmsverify.formats import asn1_text, compiled, mms, schema
 from mmsverify.formats.cited import cited_productions
 from mmsverify.formats.schema import Schema, SchemaError
 from mmsverify.resources import asn1_dir
@@ -63,8 +63,10 @@ def speak(spoken: pytest.MonkeyPatch, modules: dict[str, Any], texts: list[str])
     tree = json.loads(json.dumps(modules))
     made = Schema({"modules": tree, "choice defaults": asn1_text.choice_defaults("\n".join(texts))})
     root = made.type("MMSpdu")
+    functions = compiled.root_table(root)
     spoken.setattr(mms, "_schema", lambda: made)
     spoken.setattr(mms, "_root", lambda: root)
+    spoken.setattr(mms, "_functions", lambda: functions)
     spoken.setattr(mms, "_names", made.names)
 
 
