@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
@@ -21,9 +21,10 @@ from mmsverify.audit.spoken import Listener
 from mmsverify.errors import InputError, MmsverifyError, ProfileError
 from mmsverify.events import MmsEvent
 from mmsverify.fleet.tasks import Done, Engine, Task, here, unreadable
-from mmsverify.formats.locations import Location, Url, located
+from mmsverify.formats.locations import Location, Url
 from mmsverify.formats.mcap import McapTrace, read_trace
 from mmsverify.formats.passing import FETCHING, Stages, Watcher, stage
+from mmsverify.formats.paths import Given, trace_locations
 from mmsverify.profiles import from_metadata, load_profile, within_framework
 from mmsverify.results import Audit, AuditedInput, Finding
 
@@ -57,7 +58,8 @@ class Manner:
 class Sharing:
     """Who does the work: so many processes, or a Dask cluster, by its address or by a client of it.
 
-    ``resume``: the folder in which finished results are kept.
+    ``resume``: the folder in which finished results are kept. Raises ``ValueError`` for fewer than one of
+    ``jobs``.
     """
 
     jobs: int | None = None
@@ -65,11 +67,15 @@ class Sharing:
     client: Client | None = None
     resume: Path | None = None
 
+    def __post_init__(self) -> None:
+        if self.jobs is not None and self.jobs < 1:
+            raise ValueError(f"jobs: {self.jobs} processes cannot share the work (give 1 or more, or None)")
+
 
 def audit_traces(
-    paths: Sequence[str | Path | Url],
+    paths: Given | Iterable[Given],
     *,
-    profile: Path | None,
+    profile: str | Path | None,
     model: str | None,
     variant: str = "repaired",
     progress: Watcher | None = None,
@@ -82,7 +88,11 @@ def audit_traces(
 ) -> Audit:
     """Replay every trace against its model. An unreadable file is a finding; the others are audited.
 
-    A string such as ``s3://bucket/x.mcap`` is the URL of one file, which fsspec opens (extra ``remote``).
+    ``paths``: one input or several, as on the command line: files, folders (all recordings in them, at any
+    depth), glob patterns, and URLs of these such as ``s3://bucket/x.mcap``, which fsspec opens (extra
+    ``remote``). Each recording is audited once. None at all: an audit of nothing.
+    ``profile``: a TOML file, or the name of a shipped one; ``None``: what each recording says of itself.
+    ``model``: a model's name, whatever a recording says; ``None``: the one for what is in it.
     ``exact`` and ``kernel`` as in `Manner`. ``jobs``: so many processes share the work. ``scheduler``: the
     workers of a Dask cluster do, that of this address, or with ``local`` one of ``jobs`` processes (without:
     one a core), which ends with the audit; ``client``: those of the cluster that a ``distributed.Client`` is
@@ -91,14 +101,16 @@ def audit_traces(
     on from there. The result is the same, whoever does the work and in whatever order.
 
     Raises :class:`ProfileError` for a bad profile, :class:`UsageError` for a scheduler that does not answer,
-    workers that cannot be started, a folder that is not for results.
+    workers that cannot be started, a folder that is not for results; ``ValueError`` for fewer than one of
+    ``jobs``.
     """
     manner = _manner(profile, model, variant, exact=exact, kernel=kernel)
     sharing = Sharing(jobs, scheduler, client, None if resume is None else Path(resume))
-    done = dict(_results(paths, manner, sharing, progress))
+    locations = trace_locations(paths)
+    done = dict(_results(locations, manner, sharing, progress))
     inputs: list[AuditedInput] = []
     findings: list[Finding] = []
-    for number in range(len(paths)):
+    for number in range(len(locations)):
         entry, found = done.pop(number)
         inputs += [entry] if entry is not None else []
         findings += found
@@ -106,9 +118,9 @@ def audit_traces(
 
 
 def audit_each(
-    paths: Sequence[str | Path | Url],
+    paths: Given | Iterable[Given],
     *,
-    profile: Path | None,
+    profile: str | Path | None,
     model: str | None,
     variant: str = "repaired",
     progress: Watcher | None = None,
@@ -122,22 +134,21 @@ def audit_each(
     """The same, an `Audit` a recording, as they come: no more than what is under way is held in memory."""
     manner = _manner(profile, model, variant, exact=exact, kernel=kernel)
     sharing = Sharing(jobs, scheduler, client, None if resume is None else Path(resume))
-    results = _results(paths, manner, sharing, progress)
+    results = _results(trace_locations(paths), manner, sharing, progress)
     return (Audit([] if entry is None else [entry], found) for _, (entry, found) in results)
 
 
 def _manner(
-    profile: Path | None, model: str | None, variant: str, *, exact: bool, kernel: bool | None
+    profile: str | Path | None, model: str | None, variant: str, *, exact: bool, kernel: bool | None
 ) -> Manner:
     return Manner(load_profile(profile), profile is not None, model, variant, exact, kernel)
 
 
 def _results(
-    paths: Sequence[str | Path | Url], manner: Manner, sharing: Sharing, progress: Watcher | None
+    locations: Sequence[Location], manner: Manner, sharing: Sharing, progress: Watcher | None
 ) -> Iterator[tuple[int, Done]]:
-    """The numbers of the paths with their results, as they come."""
+    """The numbers of the recordings with their results, as they come."""
     task = partial(audit_trace, manner=manner)
-    locations = [located(path) for path in paths]
     kept = None
     if sharing.resume is not None:
         from mmsverify.fleet.kept import Kept

@@ -11,10 +11,10 @@ from mmsverify.commands.bar import audit_bar
 from mmsverify.commands.dataset import PARQUET, Dataset
 from mmsverify.commands.options import Output, Profile, Quiet, Variant
 from mmsverify.commands.output import emit, remark, require_writable
-from mmsverify.commands.paths import trace_locations
 from mmsverify.errors import InputError, UsageError
 from mmsverify.fleet.tasks import LOCAL, UNREADABLE
 from mmsverify.formats.locations import Location, local
+from mmsverify.formats.paths import trace_locations
 from mmsverify.report import AUDIT_FORMATS, render_audit, require_format
 from mmsverify.report.wording import counted
 from mmsverify.results import Audit, AuditedInput, Finding

@@ -10,8 +10,8 @@ import typer
 
 from mmsverify.commands.options import Quiet
 from mmsverify.commands.output import emit, remark, replacing, require_writable
-from mmsverify.commands.paths import CAPTURES, input_paths
 from mmsverify.errors import UsageError
+from mmsverify.formats.paths import CAPTURES, input_paths
 from mmsverify.report import IMPORT_FORMATS, render_import, require_format
 
 if TYPE_CHECKING:

@@ -17,11 +17,11 @@ from remote_server import Web, serving
 
 from mmsverify.auditing import audit_traces, read_events
 from mmsverify.cli import main
-from mmsverify.commands.paths import trace_locations
 from mmsverify.errors import InputError
 from mmsverify.formats import mcap, remote
 from mmsverify.formats.locations import Url, located
 from mmsverify.formats.mcap import TraceWriter, read_trace
+from mmsverify.formats.paths import trace_locations
 from mmsverify.formats.remote import BLOCK, Store
 from mmsverify.formats.trace import Channel
 from mmsverify.resources import traces_dir

@@ -1,4 +1,4 @@
-"""Inputs as the command line names them: files, folders (searched by suffix) and glob patterns; also URLs."""
+"""Inputs as a user names them: files, folders (searched by suffix) and glob patterns; also URLs."""
 
 from __future__ import annotations
 
@@ -7,20 +7,29 @@ import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
-from mmsverify.formats.locations import Location, Url, is_url
+from mmsverify.formats.locations import Location, Url, located
 from mmsverify.formats.remote import listed
 
 TRACES = (".mcap",)
 CAPTURES = (".pcap", ".pcapng", ".cap", ".csv")
+Given = str | os.PathLike[str] | Url
+"""An input as it is named."""
 
 
-def trace_locations(arguments: Iterable[str]) -> list[Location]:
-    """The recordings meant, as `input_paths` says, on this machine or on others."""
-    return list(dict.fromkeys(found for argument in arguments for found in _located(argument)))
+def trace_locations(given: Given | Iterable[Given]) -> list[Location]:
+    """The recordings meant by one input or several, as `input_paths` says, on this machine or on others.
+
+    A `Url` is one file, and stays as it is. Raises ``TypeError`` for what is no path.
+    """
+    several = [given] if isinstance(given, str | os.PathLike | Url) else given
+    return list(dict.fromkeys(found for each in several for found in _located(each)))
 
 
-def _located(argument: str) -> Iterable[Location]:
-    return listed(Url(argument), TRACES) if is_url(argument) else _meant(argument, TRACES)
+def _located(given: Given) -> Iterable[Location]:
+    location = located(given)
+    if isinstance(given, Url):
+        return [given]
+    return listed(location, TRACES) if isinstance(location, Url) else _meant(os.fspath(given), TRACES)
 
 
 def input_paths(arguments: Iterable[str], suffixes: tuple[str, ...] = TRACES) -> list[Path]:
