@@ -1,7 +1,8 @@
 """The engine of several processes of this machine.
 
 A process that dies, killed or out of memory, takes nothing with it: what it had not finished is done again,
-and a recording that kills its process alone as well is told as one that cannot be read.
+each recording alone. One whose process dies then, too, as often as it is tried, is told as one that cannot be
+read. A process that dies while it starts says nothing of any recording.
 """
 
 from __future__ import annotations
@@ -20,35 +21,41 @@ from mmsverify.fleet.interrupts import end_quietly, held_back
 from mmsverify.fleet.tasks import SELDOM, Done, Task, killed
 from mmsverify.formats.locations import Location
 
+ALONE = 2
+"""So often a recording is tried alone: that its process is killed once may be chance."""
+FIRST_STARTS, STARTS = 2, 5
+"""So often the first process is started, which may be one that never can be, and each later one."""
+
 
 def shared(task: Task, paths: Sequence[Location], *, jobs: int) -> Iterator[tuple[int, Done]]:
     """The engine, with so many processes."""
     waiting = dict.fromkeys(range(len(paths)))
-    first = True
+    starts = FIRST_STARTS
     while waiting:
         suspects: list[int] = []
-        for number, done in _round(task, paths, list(waiting), jobs, suspects, first=first):
+        for number, done in _round(task, paths, list(waiting), jobs, suspects, starts=starts):
             del waiting[number]
             yield number, done
-        first = False
+        starts = STARTS
         for suspect in suspects:
-            again: list[int] = []
-            yield from _round(task, paths, [suspect], 1, again)
-            if again:
-                yield suspect, killed(paths[suspect])
+            yield suspect, _alone(task, paths[suspect])
             del waiting[suspect]
+
+
+def _alone(task: Task, path: Location) -> Done:
+    """Do one that was under way when a process died."""
+    for _ in range(ALONE):
+        for _, done in [*_round(task, [path], [0], 1, [], starts=STARTS)]:
+            return done
+    return killed(path)
 
 
 def _round(
     task: Task, paths: Sequence[Location], numbers: Sequence[int], jobs: int, broken: list[int], *,
-    first: bool = False,
+    starts: int,
 ) -> Iterator[tuple[int, Done]]:  # fmt: skip
-    """Do these until a process dies; those that were under way then are noted as ``broken``.
-
-    ``first``: no process has been started yet.
-    """
-    workers = min(jobs, len(numbers))
-    pool = _started(workers) if first else _pool(workers)
+    """Do these until a process dies; those that were under way then are noted as ``broken``."""
+    pool = _started(min(jobs, len(numbers)), starts)
 
     def submit(number: int) -> Future[Done]:
         with held_back():  # this may start a process
@@ -96,14 +103,10 @@ def _begin() -> None:
     threading.Thread(target=watch, daemon=True).start()
 
 
-def _pool(workers: int) -> ProcessPoolExecutor:
-    return ProcessPoolExecutor(workers, mp_context=get_context("spawn"), initializer=_begin)
-
-
-def _started(workers: int) -> ProcessPoolExecutor:
+def _started(workers: int, starts: int) -> ProcessPoolExecutor:
     """A pool of which a process has started: tells those that never can from those that something kills."""
-    for last in (False, True):
-        pool = _pool(workers)
+    for _ in range(starts):
+        pool = ProcessPoolExecutor(workers, mp_context=get_context("spawn"), initializer=_begin)
         try:
             with held_back():
                 started = pool.submit(int)
@@ -111,7 +114,5 @@ def _started(workers: int) -> ProcessPoolExecutor:
             return pool
         except BrokenProcessPool:
             pool.shutdown(cancel_futures=True)
-            if last:
-                break
     cure = "in a script, call it under if __name__ == '__main__'; or use one process"
     raise UsageError("other processes cannot be started", place="jobs", cure=cure)

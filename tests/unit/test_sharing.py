@@ -13,7 +13,7 @@ import time
 from pathlib import Path
 
 import pytest
-from fleets import always_killed, once_killed, recordings, refuses, timeless, workers
+from fleets import always_killed, once_killed, recordings, refuses, timeless, twice_killed, workers
 
 from mmsverify.auditing import audit_traces
 from mmsverify.cli import main
@@ -28,6 +28,14 @@ def test_a_killed_process_takes_nothing_with_it(tmp_path: Path) -> None:
     done = [*shared(once_killed, paths, jobs=2)]
     assert sorted(number for number, _ in done) == [*range(12)]
     assert {number: each.path for number, (each, _) in done if each} == dict(enumerate(map(str, paths)))
+
+
+def test_a_recording_whose_process_was_killed_twice_is_not_blamed(tmp_path: Path) -> None:
+    paths = [tmp_path / str(number) for number in range(12)]
+    done = dict(shared(twice_killed, paths, jobs=2))
+    assert {number: each.path for number, (each, _) in done.items() if each} == dict(
+        enumerate(map(str, paths))
+    )
 
 
 def test_a_recording_that_kills_its_process_is_told(tmp_path: Path) -> None:
@@ -65,9 +73,8 @@ def test_the_command_line_takes_jobs(capsys: pytest.CaptureFixture[str]) -> None
 def test_a_script_that_cannot_be_started_again_is_told_so(tmp_path: Path) -> None:
     script = tmp_path / "unguarded.py"
     script.write_text(
-        "from pathlib import Path\n"
         "from mmsverify.auditing import audit_traces\n"
-        f"audit_traces([Path({str(SAMPLES[0])!r})] * 2, profile=None, model=None, jobs=2)\n"
+        f"audit_traces({[*map(str, SAMPLES[:2])]!r}, profile=None, model=None, jobs=2)\n"
     )
     done = subprocess.run([sys.executable, script], capture_output=True, text=True, check=False)
     assert "UsageError: jobs: other processes cannot be started" in done.stderr
@@ -133,6 +140,25 @@ def test_a_process_killed_in_the_middle_changes_nothing(
     with run(fleet, "--jobs", "2", *engine, "--resume", str(tmp_path / "kept")) as process:
         finished(tmp_path / "kept", 5)
         os.kill(workers(process.pid)[0], signal.SIGKILL)
+        out, err = process.communicate()
+    assert (process.returncode, err) == (1, "")
+    assert timeless(out) == alone
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not Path("/proc").is_dir(), reason="looks for processes in /proc")
+@pytest.mark.parametrize("pause", [0, 0.2, 0.3, 0.4, 0.5])
+def test_two_processes_killed_within_half_a_second_change_nothing(
+    pause: float, fleet: Path, alone: object, tmp_path: Path
+) -> None:
+    with run(fleet, "--jobs", "2", "--resume", str(tmp_path / "kept")) as process:
+        finished(tmp_path / "kept", 5)
+        before = workers(process.pid)
+        os.kill(before[0], signal.SIGKILL)
+        time.sleep(pause)
+        while not (later := [each for each in workers(process.pid) if each not in before]):
+            time.sleep(0.001)
+        os.kill(later[0], signal.SIGKILL)
         out, err = process.communicate()
     assert (process.returncode, err) == (1, "")
     assert timeless(out) == alone
