@@ -96,7 +96,7 @@ def audit_traces(
     ``exact`` and ``kernel`` as in `Manner`. ``jobs``: so many processes share the work. ``scheduler``: the
     workers of a Dask cluster do, that of this address, or with ``local`` one of ``jobs`` processes (without:
     one a core), which ends with the audit; ``client``: those of the cluster that a ``distributed.Client`` is
-    connected to.
+    connected to. That there are no workers for some seconds is a warning of the logger ``mmsverify.fleet``.
     ``resume``: a folder where the results of finished recordings are kept; an audit that was broken off goes
     on from there. The result is the same, whoever does the work and in whatever order.
 

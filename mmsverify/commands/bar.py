@@ -6,6 +6,7 @@ recordings, over their number.
 
 from __future__ import annotations
 
+import logging
 import os
 import sys
 import time
@@ -29,13 +30,29 @@ _WIDE = 110  # columns of a terminal; on a narrower one the name needs them more
 @contextmanager
 def audit_bar(locations: Sequence[Location], jobs: int, *, quiet: bool) -> Iterator[Watcher | None]:
     """A bar for as long as the audit runs; ``None`` where nobody watches."""
-    if quiet or sys.stderr is None or not sys.stderr.isatty():
+    if quiet:
+        with _hushed():
+            yield None
+        return
+    if sys.stderr is None or not sys.stderr.isatty():
         yield None
         return
     from rich.console import Console
 
     with progress_on(Console(stderr=True)) as progress:
         yield Bar(progress, locations, shared=jobs > 1)
+
+
+@contextmanager
+def _hushed() -> Iterator[None]:
+    """Without the warnings that a fleet logs, which go to stderr."""
+    logger = logging.getLogger("mmsverify.fleet")
+    level = logger.level
+    logger.setLevel(logging.CRITICAL)
+    try:
+        yield
+    finally:
+        logger.setLevel(level)
 
 
 def progress_on(console: Console, clock: Callable[[], float] = time.monotonic) -> Progress:

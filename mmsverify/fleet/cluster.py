@@ -12,9 +12,9 @@ import gc
 import logging
 import threading
 import warnings
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import replace
 from functools import partial
 from importlib import import_module
@@ -33,9 +33,12 @@ __all__ = ["Client", "connected", "shared"]
 
 PATIENCE = 5
 """Seconds that a scheduler has to answer."""
+LONG = 4
+"""Seconds without any worker after which that is told, as a warning of the logger ``mmsverify.fleet``."""
 CHATTY = {"distributed", "tornado", "asyncio"}
 """Who logs what happens to a cluster."""
 EXTRA = "pip install 'mmsverify[dask]'"
+_log = logging.getLogger("mmsverify.fleet")
 _alone = threading.Lock()
 """Held while a task is done: threads would hinder one another, and a model is loaded by one alone."""
 
@@ -61,10 +64,10 @@ def connected(scheduler: str, workers: int) -> Iterator[Client]:
 
 
 def shared(task: Task, paths: Sequence[Location], *, client: Client) -> Iterator[tuple[int, Done]]:
-    """The engine, with the workers of that client's cluster; it waits as long as there are none."""
+    """The engine, with the workers of that client's cluster; it waits, and says so, while there are none."""
     _require_able(client)
     suspects: list[int] = []
-    yield from _round(task, paths, range(len(paths)), client, suspects)
+    yield from _round(task, paths, range(len(paths)), client, suspects, begun=partial(_wait, client))
     for suspect in suspects:
         again: list[int] = []
         yield from _round(task, paths, [suspect], client, again)
@@ -88,9 +91,10 @@ def _unable(client: Client, missing: ImportError) -> UsageError:
 
 
 def _round(
-    task: Task, paths: Sequence[Location], numbers: Sequence[int], client: Client, broken: list[int]
-) -> Iterator[tuple[int, Done]]:
-    """Do these; those whose workers died too often are noted as ``broken``."""
+    task: Task, paths: Sequence[Location], numbers: Sequence[int], client: Client, broken: list[int], *,
+    begun: Callable[[], None] = lambda: None,
+) -> Iterator[tuple[int, Done]]:  # fmt: skip
+    """Do these; those whose workers died too often are noted as ``broken``. ``begun``: they are asked for."""
     from distributed import KilledWorker, as_completed
 
     asked = [_anywhere(paths[number]) for number in numbers]
@@ -99,6 +103,7 @@ def _round(
     running = dict(zip(futures, numbers, strict=True))
     del futures  # a result is let go of where it was made as soon as it is here
     try:
+        begun()
         for future in as_completed(list(running), loop=client.loop):
             number = running.pop(future)
             try:
@@ -107,6 +112,20 @@ def _round(
                 broken.append(number)
     finally:
         client.cancel(list(running))
+
+
+def _wait(client: Client) -> None:
+    """Wait for a worker, and after some seconds say so; of a scheduler that is gone the results tell.
+
+    Not before the tasks are given: some clusters begin workers when there is something to do.
+    """
+    try:
+        with suppress(CancelledError):
+            client.wait_for_workers(1, timeout=LONG)
+    except TimeoutError:
+        _log.warning("waiting for workers of %s", _address(client))
+    except OSError:
+        pass
 
 
 def _result(future: Future, client: Client) -> Done:

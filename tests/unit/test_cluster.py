@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import logging
 import os
 import sys
+import threading
 from collections.abc import Iterator
 from pathlib import Path
 from types import SimpleNamespace
@@ -96,6 +98,24 @@ def test_the_command_line_takes_a_cluster_by_its_address(
     out, err = capfd.readouterr()
     assert err == ""
     assert timeless(out) == timeless(alone)
+
+
+@pytest.mark.parametrize("quiet", [False, True])
+def test_that_there_are_no_workers_is_told_once(
+    quiet: bool, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    import distributed
+
+    monkeypatch.setattr(cluster, "LONG", 0.2)
+    monkeypatch.setattr(logging.getLogger("mmsverify"), "propagate", False)  # as outside of pytest
+    with distributed.LocalCluster(n_workers=0, processes=False, dashboard_address="127.0.0.1:0") as empty:
+        address = empty.scheduler_address
+        late = threading.Timer(2, empty.scale, [1])
+        late.start()
+        quietly = ["-q"] if quiet else []
+        command = ["audit", str(SAMPLES[0]), "--engine", "dask", "--scheduler", address, *quietly]
+        assert main(command) in (0, 1)
+    assert capsys.readouterr().err == ("" if quiet else f"waiting for workers of {address}\n")
 
 
 @pytest.mark.parametrize(
