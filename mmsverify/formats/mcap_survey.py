@@ -82,7 +82,11 @@ class _Record:
 
 def survey(file: BinaryIO) -> Survey:
     """Walk the records of ``file`` once. Raises ``InputError`` where it is no MCAP file, or one that lies."""
-    if file.read(len(rec.MAGIC)) != rec.MAGIC:
+    head = file.read(len(rec.MAGIC))
+    if head != rec.MAGIC:
+        if head.lstrip().startswith(b"<"):
+            cure = "name the file itself; the URL of a folder ends with /"
+            raise InputError("a web page, not an MCAP file", cure=cure)
         raise InputError("not an MCAP file", cure="import a capture first: mmsverify import")
     return _Surveyor(file).run()
 

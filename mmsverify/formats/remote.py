@@ -16,10 +16,12 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from typing import IO, TYPE_CHECKING, Any, BinaryIO
+from urllib.parse import urlsplit
 
 from mmsverify.errors import InputError
-from mmsverify.formats.locations import WEB, Url, secrets, without_secrets
+from mmsverify.formats.locations import WEB, Url
 from mmsverify.formats.passing import Passed
+from mmsverify.formats.remote_errors import EMPTY, KNOWN, NO_HOST, is_missing, told, words
 
 if TYPE_CHECKING:
     from _typeshed import WriteableBuffer
@@ -28,7 +30,6 @@ BLOCK = 1 << 20
 """Octets that are fetched together where a file is read here and there."""
 MOST_BLOCKS = 16
 """So many blocks in one request at most, where it is read on and on."""
-_EMPTY = "a folder without recordings"
 _BUFFER = 1 << 16
 _PATIENCE = 60  # seconds without any octet from a web server; a download as a whole may take hours
 _PAUSES = (0.5, 2)  # seconds before the second and the third attempt
@@ -94,7 +95,7 @@ class Store:
             if self._failed is not None:
                 raise self._failed
             try:
-                with _told(self._url):
+                with told(self._url):
                     yield
             except InputError as error:
                 self._failed = error
@@ -208,8 +209,10 @@ def listed(url: Url, suffixes: tuple[str, ...]) -> list[Url]:
     if not patterned and (url.suffix.lower() in suffixes or not _may_be_folder(url)):
         return [url]
     try:
-        with _told(url):
+        with told(url):
             found = list(_matches(url) if patterned else _below(url))
+            if patterned and not found:
+                _require_there(url)
     except InputError as error:
         # Without what it came from: where Dask is loaded, that would be sent to other processes, too.
         error.__cause__ = error.__context__ = error.__traceback__ = None
@@ -217,14 +220,16 @@ def listed(url: Url, suffixes: tuple[str, ...]) -> list[Url]:
     files = [each for each in found if each.suffix.lower() in suffixes]
     itself = {each.address.rstrip("/") for each in found} == {url.address.rstrip("/")}
     if found and not files and not itself:
-        return [replace(url, trouble=InputError(_EMPTY))]
+        cause = "nothing that it matches is a recording" if patterned else EMPTY
+        trouble = InputError(cause, place=str(url), cure=f"recordings end with {' or '.join(suffixes)}")
+        return [replace(url, trouble=trouble)]
     return sorted(files, key=lambda each: each.address) or [url]
 
 
 def size_of(url: Url) -> int | None:
     """The octets of a remote file, where its machine tells them."""
     try:
-        with _told(url):
+        with told(url):
             system, path = _system(url)
             size = system.info(path).get("size")
     except InputError:
@@ -254,6 +259,18 @@ def _matches(url: Url) -> Iterator[Url]:
             yield child
 
 
+def _require_there(url: Url) -> None:
+    """A pattern without a match may still be the very name of a file."""
+    system, path = _system(url)
+    try:
+        system.info(path)
+    except FileNotFoundError as error:
+        if not is_missing(error):
+            raise
+        cure = "check it; a web server must list its files" if url.scheme in WEB else "check it"
+        raise InputError("nothing matches this pattern", cure=cure) from None
+
+
 def _below(url: Url) -> Iterator[Url]:
     system, path = _system(url)
     depth = _DEPTH if url.scheme in WEB else None
@@ -276,17 +293,29 @@ def _system(url: Url) -> tuple[Any, str]:
         raise InputError("a URL needs fsspec", cure="pip install 'mmsverify[remote]'") from None
     try:
         if url.scheme in WEB:  # where "::" stands in an address and begins no second URL
+            _require_host(url)
             return fsspec.filesystem(url.scheme, **_web_options()), url.address
         found: tuple[Any, str] = fsspec.core.url_to_fs(url.address)
     except ImportError as error:
         driver = _DRIVERS.get(url.scheme)
-        cause = f"{url.scheme}:// needs {driver}" if driver else _words(error, url)
-        raise InputError(cause, cure=f"pip install {driver}" if driver else "") from None
-    except ValueError as error:
-        if "Protocol not known" not in str(error):
-            raise
-        raise InputError(f"no way to open {url.scheme}://", cure="see fsspec for those it knows") from None
+        cause = f"{url.scheme}:// needs {driver or 'a package that is not there'}"
+        raise InputError(cause, cure=f"pip install {driver}" if driver else words(error, url)) from None
+    except (ValueError, TypeError) as error:  # no such scheme, or one that needs more than an address
+        unknown = re.search(r"not known: ([\w+.-]+)", str(error))
+        scheme = unknown[1] if unknown else url.scheme
+        raise InputError(f"no way to open {scheme}://", cure=KNOWN) from None
     return found
+
+
+def _require_host(url: Url) -> None:
+    try:
+        parts = urlsplit(url.address)
+        valid = bool(parts.hostname) and parts.port != 0 and not re.search(r"\s", parts.netloc)
+    except ValueError:  # of its port, or of its brackets
+        valid = False
+    if not valid:
+        cause, cure = NO_HOST
+        raise InputError(cause, cure=cure)
 
 
 def _web_options() -> dict[str, Any]:
@@ -315,45 +344,3 @@ def _write(kept: IO[bytes], position: int, data: bytes) -> None:
     except OSError as error:
         cause = f"no room for what is fetched: {error.strerror}"
         raise InputError(cause, cure="let TMPDIR name a folder with more room") from None
-
-
-@contextmanager
-def _told(url: Url) -> Iterator[None]:
-    """Whatever goes wrong in there is told as an ``InputError`` about the URL."""
-    try:
-        yield
-    except InputError as error:
-        raise InputError(error.cause, place=str(url), cure=error.cure) from None
-    # Each driver has errors of its own, which cannot be named without importing it.
-    except Exception as error:
-        raise InputError(_cause(error, url), place=str(url)) from None
-
-
-def _cause(error: BaseException, url: Url) -> str:
-    """One line; fsspec says "not found" of whatever a web server answers, the reason stands behind."""
-    reason = error.__cause__ if isinstance(error, FileNotFoundError) else None
-    reason = reason or error
-    status = getattr(reason, "status", None)
-    if isinstance(status, int) and status:
-        said = getattr(reason, "message", "")
-        return f"the server answers {status} {said if isinstance(said, str) else ''}".strip()
-    for kind, told in _CAUSES.items():
-        if isinstance(reason, kind):
-            return told
-    return _words(reason, url)
-
-
-_CAUSES: dict[type[BaseException], str] = {
-    FileNotFoundError: "No such file or directory",
-    IsADirectoryError: _EMPTY,
-    PermissionError: "Permission denied",
-    TimeoutError: "the server does not answer",
-}
-
-
-def _words(error: BaseException, url: Url) -> str:
-    """What an error says of itself, unless that would tell a secret."""
-    said = without_secrets(str(error))
-    if said in ("", str(url)) or any(secret in said for secret in secrets(url.address)):
-        return type(error).__name__
-    return said.splitlines()[0]
