@@ -94,6 +94,9 @@ def _free(folder: Path | None) -> Path:
     except OSError as error:
         cause = f"cannot hold a dataset: {error.strerror}"
         raise UsageError(cause, place=str(folder), cure="name a folder that can be written") from error
+    if held == set(PARTS):
+        cure = "name another folder with -o, or delete this one before"
+        raise UsageError("holds a dataset already", place=str(folder), cure=cure)
     if held and not (MARK in held and held <= {MARK, *PARTS}):
         raise UsageError("holds other things", place=str(folder), cure="name a new folder with -o")
     return folder

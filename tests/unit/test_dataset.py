@@ -110,9 +110,18 @@ def test_a_dataset_that_was_broken_off_is_begun_again(
     assert len(rows(written(tmp_path / "out", CLEAN) / "inputs")) == 1
 
 
-@pytest.mark.parametrize("place", ["mine", "file", "file/x", "none/x", "whole"])
+@pytest.mark.parametrize(
+    ("place", "said"),
+    [
+        ("mine", "holds other things (name a new folder with -o)"),
+        ("file", "cannot hold a dataset: "),
+        ("file/x", "cannot hold a dataset: "),
+        ("none/x", "cannot hold a dataset: "),
+        ("whole", "holds a dataset already (name another folder with -o, or delete this one before)"),
+    ],
+)
 def test_a_folder_that_is_not_free_is_refused(
-    place: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    place: str, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "thesis.txt").write_text("mine")
@@ -121,7 +130,7 @@ def test_a_folder_that_is_not_free_is_refused(
     assert main(["audit", "a.mcap", "--format", "parquet", "-o", str(tmp_path / place)]) == 2
     out, err = capsys.readouterr()
     assert out == ""
-    assert err.startswith(f"mmsverify: {tmp_path / place}: ")
+    assert err.startswith(f"mmsverify: {tmp_path / place}: {said}")
     assert err.count("\n") == 1
 
 
