@@ -101,8 +101,8 @@ def audit_traces(
     on from there. The result is the same, whoever does the work and in whatever order.
 
     Raises :class:`ProfileError` for a bad profile, :class:`UsageError` for a scheduler that does not answer,
-    workers that cannot be started, a folder that is not for results; ``ValueError`` for fewer than one of
-    ``jobs``.
+    workers that cannot be started, a folder that is not for results, an empty path; ``ValueError`` for fewer
+    than one of ``jobs``.
     """
     manner = _manner(profile, model, variant, exact=exact, kernel=kernel)
     sharing = Sharing(jobs, scheduler, client, None if resume is None else Path(resume))

@@ -9,7 +9,7 @@ import typer
 
 from mmsverify.commands.bar import audit_bar
 from mmsverify.commands.dataset import PARQUET, Dataset
-from mmsverify.commands.options import Output, Profile, Quiet, Variant
+from mmsverify.commands.options import Output, Profile, Quiet, Variant, place
 from mmsverify.commands.output import emit, remark, require_writable
 from mmsverify.errors import InputError, UsageError
 from mmsverify.fleet.tasks import LOCAL, UNREADABLE
@@ -39,8 +39,11 @@ Format = Annotated[
 ]
 Annotate = Annotated[
     Path | None,
-    typer.Option("--annotate", metavar="OUT.mcap", help="Copy the trace with its violations added."),
-]
+    typer.Option(
+        "--annotate", metavar="OUT.mcap", parser=place("--annotate"),
+        help="Copy the trace with its violations added.",
+    ),
+]  # fmt: skip
 Jobs = Annotated[
     int | None,
     typer.Option("--jobs", metavar="N", min=1, max=256, help="So many processes share the traces."),
@@ -57,13 +60,16 @@ Scheduler = Annotated[
 ]
 Resume = Annotated[
     Path | None,
-    typer.Option("--resume", metavar="DIR", help="Keep results in DIR; go on from there after a break."),
-]
+    typer.Option(
+        "--resume", metavar="DIR", parser=place("--resume"),
+        help="Keep results in DIR; go on from there after a break.",
+    ),
+]  # fmt: skip
 Exact = Annotated[bool, typer.Option("--exact", help="Judge each message anew: slow, and the same findings.")]
-Compiled = Annotated[
-    bool | None,
-    typer.Option("--kernel/--no-kernel", help="Compiled loops (extra fast), or none; else for long traces."),
+Kernel = Annotated[
+    bool, typer.Option("--kernel", help="Compiled loops (extra fast); without this, for long traces only.")
 ]
+NoKernel = Annotated[bool, typer.Option("--no-kernel", help="No compiled loops.")]
 
 
 def audit(
@@ -79,7 +85,8 @@ def audit(
     scheduler: Scheduler = None,
     resume: Resume = None,
     exact: Exact = False,
-    kernel: Compiled = None,
+    kernel: Kernel = False,
+    no_kernel: NoKernel = False,
     output: Output = None,
     quiet: Quiet = False,
 ) -> int:
@@ -91,10 +98,9 @@ def audit(
     paths = trace_locations(traces)
     if annotate is not None:
         _require_one(annotate, paths, format)
-    if exact and kernel:
-        raise UsageError("looks nothing up", place="--exact", cure="leave out --kernel, or --exact")
     given: Options = {
-        "profile": profile, "model": model, "variant": variant, "exact": exact, "kernel": kernel,
+        "profile": profile, "model": model, "variant": variant,
+        "exact": exact, "kernel": _compiled(exact=exact, kernel=kernel, no_kernel=no_kernel),
         "jobs": jobs, "scheduler": _scheduler(engine, scheduler, jobs), "resume": resume,
     }  # fmt: skip
     if format == PARQUET:
@@ -108,6 +114,15 @@ def audit(
     return int(any(finding.severity == "error" for finding in result.findings))
 
 
+def _compiled(*, exact: bool, kernel: bool, no_kernel: bool) -> bool | None:
+    """Whether compiled loops are wanted; ``None``: nothing is said of it."""
+    if kernel and no_kernel:
+        raise UsageError("not with --no-kernel", place="--kernel", cure="leave out one of them")
+    if exact and kernel:
+        raise UsageError("looks nothing up", place="--exact", cure="leave out --kernel, or --exact")
+    return kernel or (False if no_kernel else None)
+
+
 def _scheduler(engine: str, scheduler: str | None, jobs: int | None) -> str | None:
     """The address of the cluster that shares the work, ``None``: processes do."""
     if engine not in ENGINES:
@@ -116,6 +131,8 @@ def _scheduler(engine: str, scheduler: str | None, jobs: int | None) -> str | No
         if scheduler is not None:
             raise UsageError(f"is for {DASK}", place="--scheduler", cure=f"add --engine {DASK}")
         return None
+    if scheduler == "":
+        raise UsageError("is empty", place="--scheduler", cure=f"give an address, or {LOCAL}")
     if scheduler not in (None, LOCAL) and jobs is not None:
         cure = f"leave it out, or use --scheduler {LOCAL}"
         raise UsageError("a cluster has the workers that it has", place="--jobs", cure=cure)

@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from mmsverify.commands.options import Output, OwnVariant, Profile, Quiet
+from mmsverify.commands.options import Output, OwnVariant, Profile, Quiet, place
 from mmsverify.commands.output import emit, progress, remark, require_writable
 from mmsverify.errors import UsageError
 from mmsverify.report import CHECK_FORMATS, render_check, require_format
@@ -33,8 +33,11 @@ Timeout = Annotated[
 ]
 Counterexamples = Annotated[
     Path | None,
-    typer.Option("--counterexamples", metavar="DIR", help="Write each counterexample as a trace."),
-]
+    typer.Option(
+        "--counterexamples", metavar="DIR", parser=place("--counterexamples"),
+        help="Write each counterexample as a trace.",
+    ),
+]  # fmt: skip
 
 
 def check(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 import typer
 
-from mmsverify.commands.options import Quiet
+from mmsverify.commands.options import Quiet, place
 from mmsverify.commands.output import emit, remark, replacing, require_writable
 from mmsverify.errors import UsageError
 from mmsverify.formats.paths import CAPTURES, input_paths
@@ -18,7 +18,9 @@ if TYPE_CHECKING:
     from mmsverify.formats.csv_samples import Tables
 
 Captures = Annotated[list[str], typer.Argument(metavar="CAPTURE", help="Files, folders of them, patterns.")]
-Trace = Annotated[Path, typer.Option("-o", "--output", metavar="OUT.mcap", help="The trace to write.")]
+Trace = Annotated[
+    Path, typer.Option("-o", "--output", metavar="OUT.mcap", parser=place("-o"), help="The trace to write.")
+]
 MmsPort = Annotated[
     list[int] | None,
     typer.Option("--mms-port", metavar="N", min=1, max=65535, help="A further port of MMS."),

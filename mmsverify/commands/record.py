@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from mmsverify.commands.options import Quiet
+from mmsverify.commands.options import Quiet, place
 from mmsverify.commands.output import emit, remark, require_writable
 from mmsverify.errors import InputError, UsageError
 from mmsverify.formats.trace import USUAL_PORTS
@@ -22,7 +22,10 @@ if TYPE_CHECKING:
 
 record = typer.Typer(help="Record a trace from the wire.", no_args_is_help=True)
 
-Trace = Annotated[Path, typer.Option("-o", "--output", metavar="OUT.mcap", help="The trace to write: new.")]
+Trace = Annotated[
+    Path,
+    typer.Option("-o", "--output", metavar="OUT.mcap", parser=place("-o"), help="The trace to write: new."),
+]
 Seconds = Annotated[
     float | None, typer.Option("--seconds", metavar="S", min=0.1, help="End by itself after S seconds.")
 ]

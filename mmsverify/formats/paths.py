@@ -7,6 +7,7 @@ import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
 
+from mmsverify.errors import UsageError
 from mmsverify.formats.locations import Location, Url, located
 from mmsverify.formats.remote import listed
 
@@ -19,7 +20,8 @@ Given = str | os.PathLike[str] | Url
 def trace_locations(given: Given | Iterable[Given]) -> list[Location]:
     """The recordings meant by one input or several, as `input_paths` says, on this machine or on others.
 
-    A `Url` is one file, and stays as it is. Raises ``TypeError`` for what is no path.
+    A `Url` is one file, and stays as it is. Raises :class:`UsageError` for an empty text, ``TypeError`` for
+    what is no path.
     """
     several = [given] if isinstance(given, str | os.PathLike | Url) else given
     return list(dict.fromkeys(found for each in several for found in _located(each)))
@@ -42,6 +44,8 @@ def input_paths(arguments: Iterable[str], suffixes: tuple[str, ...] = TRACES) ->
 
 
 def _meant(argument: str, suffixes: tuple[str, ...]) -> Iterator[Path]:
+    if not argument:  # of an empty variable; a Path makes the folder of it in which we are
+        raise UsageError("an input is an empty text", cure="name a file, a folder, a pattern or a URL")
     # Most shells expand patterns themselves; a quoted one they leave to us. A file whose name happens to hold
     # a bracket is that file.
     if not os.path.lexists(argument) and any(mark in argument for mark in "*?["):

@@ -97,6 +97,5 @@ def _refused(error: BaseException) -> bool:
 
 
 def _system(error: BaseException) -> str:
-    if isinstance(error, OSError) and error.errno in errno.errorcode:
-        return f": {os.strerror(error.errno)}"
-    return ""
+    number = error.errno if isinstance(error, OSError) else None
+    return f": {os.strerror(number)}" if number is not None and number in errno.errorcode else ""
