@@ -113,6 +113,8 @@ class Belief:
 
     def attains(self, row: Row) -> bool:
         """Whether what a row shows may hold by now, with all that may have happened unseen."""
+        if self.unseen.hopeless(self.states, self._outstanding, Goal([row], {}, self.made)):
+            return False
         return bool(self._reached(row, self.states, "observation"))
 
     def preceded(self, row: Row) -> bool:

@@ -18,7 +18,7 @@ Tag = tuple[str, tuple[str, ...]]
 History = frozenset[Tag]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Move:
     """Something that may happen unseen, with names.
 

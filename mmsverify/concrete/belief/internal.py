@@ -21,6 +21,7 @@ from mmsverify.concrete.belief.goal import Goal
 from mmsverify.concrete.belief.horizon import Reach, reach
 from mmsverify.concrete.belief.partial import DECIDED, Key, Partial
 from mmsverify.concrete.belief.ready import Ready, Rows
+from mmsverify.concrete.belief.relaxed import hopeless
 from mmsverify.concrete.belief.several import changed, distinct
 from mmsverify.concrete.belief.values import ABSENT, NO, YES, Env, within
 from mmsverify.model.model import ModelData
@@ -88,6 +89,7 @@ class Unseen:
     _steps: dict[tuple[Ready, Partial], list[Partial]] = field(default_factory=dict)
     _fields: dict[tuple[Any, ...], Field] = field(default_factory=dict)
     _horizons: dict[tuple[Any, ...], Reach] = field(default_factory=dict)
+    _given: dict[Move, Reach] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         rows = [row for row in self.model.rows if row.on.phase == "internal"]
@@ -104,6 +106,7 @@ class Unseen:
         self._steps.clear()
         self._fields.clear()
         self._horizons.clear()
+        self._given.clear()
 
     def before(
         self,
@@ -121,6 +124,20 @@ class Unseen:
         for state in states:
             reached |= dict.fromkeys(self._remembered(state, evidence, asked, goal))
         return distinct(reached)
+
+    def hopeless(self, states: Iterable[Partial], outstanding: Mapping[str, Outstanding], goal: Goal) -> bool:
+        """Whether what is observed certainly cannot be; quickly told, and not of all that cannot be."""
+        moves = self._field("observation", tuple(outstanding.values()), goal)
+        return all(hopeless(state, moves, goal, _may, self._gives) for state in states)
+
+    def _gives(self, each: Move) -> Reach:
+        """The values that a move may give."""
+        found = self._given.get(each)
+        if found is None:
+            found = self._given[each] = reach(each.ways, self.constraints.world)
+            if each.tag[0] == PANEL:
+                found.anything(self.constraints.world, self._panel)
+        return found
 
     def _remembered(
         self, state: Partial, evidence: Evidence, asked: tuple[Outstanding, ...], goal: Goal
@@ -249,6 +266,7 @@ class Unseen:
             if len(self._fields) > LARGEST:
                 self._fields.clear()
                 self._horizons.clear()
+                self._given.clear()
             rows = [r for r in self._rows[evidence] if control or CONTROL[0] not in r.writes]
             self._fields[key] = Field([*self._moves(rows), *map(self._performing, asked), *self._at_panel()])
         return self._fields[key]
@@ -299,6 +317,15 @@ class Unseen:
             env = dict(zip((name for name, _ in ranged), values, strict=True))
             found.setdefault(tuple(v for v in values if isinstance(v, str)), []).append(env)
         return found
+
+
+def _may(each: Move, state: Partial) -> bool:
+    """Whether a move may be made in some of the states that this one allows."""
+    if each.tag[0] == PANEL:
+        known = state.get(CONTROL)
+        assert isinstance(known, int)
+        return bool(known & YES)
+    return each.obstacle(state) is None
 
 
 def _explained(before: Partial, after: Partial, moves: Field, goal: Goal) -> bool:
