@@ -86,6 +86,7 @@ def compares(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(learned, "COMPARES", True)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "count"), [("diverse", 2400), ("faulty", 1500), ("mid-operation", 2500)])
 def test_logs_of_all_kinds_are_told_alike(
     name: str, count: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -104,6 +105,7 @@ def test_muddled_conversations_are_told_alike(seed: int, tmp_path: Path) -> None
     same_in_all_ways(path)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("name", ["press-day", "faulty-press"])
 def test_muddled_samples_of_a_controller_are_told_alike(name: str, seed: int, tmp_path: Path) -> None:
@@ -130,6 +132,7 @@ def test_many_muddled_conversations_are_told_alike(seed: int, tmp_path: Path) ->
     same_in_all_ways(path)
 
 
+@pytest.mark.slow
 def test_what_is_forgotten_costs_no_finding(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(tables, "LARGEST", 100_000)
     monkeypatch.setattr(tables, "MOST_CLASSES", 20)

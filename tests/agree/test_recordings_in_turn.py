@@ -74,6 +74,7 @@ def fresh(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(lasting, "_OF_THREAD", lasting._OfThread())
 
 
+@pytest.mark.slow
 def test_robots_with_other_programs_are_told_alike_in_turn(tmp_path: Path) -> None:
     paths = [tmp_path / f"{seed}.mcap" for seed in (11, 12)]
     for seed, path in zip((11, 12), paths, strict=True):
@@ -197,6 +198,7 @@ def test_lengths_in_more_octets_than_they_need_are_told_alike(octets: int, tmp_p
     alike(path)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", range(1, 60, 7))
 def test_after_an_interrupt_nothing_is_taken_for_learned(
     number: int, monkeypatch: pytest.MonkeyPatch
@@ -216,6 +218,7 @@ def test_after_an_interrupt_nothing_is_taken_for_learned(
     assert told(path, kernel=True) == expected
 
 
+@pytest.mark.slow
 def test_an_association_that_is_met_late_makes_the_beginning_uncertain(tmp_path: Path) -> None:
     """Its first message answers a request that nobody has seen, performed at any time before."""
     messages = [

@@ -16,7 +16,7 @@ from mmsverify.concrete.evaluate import successors, within_bounds
 from mmsverify.graph import explore
 from mmsverify.model import ModelData
 
-CALM = settings(deadline=None, max_examples=200, suppress_health_check=list(HealthCheck))
+CALM = settings(deadline=None, max_examples=100, suppress_health_check=list(HealthCheck))
 
 Step = tuple[str, str, frozenset[Any], frozenset[Any] | None]
 """Row, answer, parameters, state after; no state where an integer leaves its bounds."""
@@ -69,7 +69,7 @@ def test_the_graph_has_an_edge_for_each_step(situation: tuple[ModelData, Scope])
     assert found == {taken for taken in compiled(machine) if taken[3] is not None}
 
 
-@settings(CALM, max_examples=30)
+@settings(CALM, max_examples=15)
 @given(situations())
 def test_the_solver_finds_the_steps_that_the_judge_takes(situation: tuple[ModelData, Scope]) -> None:
     model, scope = situation

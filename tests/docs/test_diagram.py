@@ -9,6 +9,7 @@ from mmsverify.diagrams import draw
 DOCS = Path(__file__).parents[2] / "docs"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("model", ["mms-robot", "vr-template"])
 def test_the_picture_of_a_model_is_not_stale(model: str) -> None:
     drawn = draw(model, variant="repaired", format="svg")

@@ -57,6 +57,7 @@ def implied_of(claim: Claim) -> Expr:
     return ex.quantified(False, bound, ex.conjunction(*map(ex.negation, conditions)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("variant", VARIANTS)
 def test_no_claim_about_states_is_vacuous(variant: str) -> None:
     model = robot(variant)

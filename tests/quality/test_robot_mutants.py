@@ -45,6 +45,7 @@ def test_a_claim_is_lost_with_a_check_or_an_effect(judge: Judge, place: str, kin
     assert judge.lost(a_mutant(place, kind))
 
 
+@pytest.mark.slow
 def test_a_model_that_is_not_changed_loses_no_claim_and_is_equal(judge: Judge) -> None:
     real = judge.model.rows
     for name in ("select", "kill", "end_of_execution"):

@@ -152,6 +152,7 @@ def test_a_refusal_against_which_nothing_stands_is_a_warning_at_the_answer(name:
     assert "answered result(-), but nothing stands against it" in finding.message
 
 
+@pytest.mark.slow
 def test_the_steps_that_no_request_can_meet_are_those_that_z3_proves() -> None:
     reach = Reach(robot("repaired"))
     proved = {name: reach.refusal(step) for name, step in STEPS.items()}

@@ -85,6 +85,7 @@ def places(found: Iterable[Finding]) -> list[tuple[int | None, str]]:
     return [(each.index, each.rule) for each in found]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("seed", SEEDS)
 @pytest.mark.parametrize("name", MACHINES)

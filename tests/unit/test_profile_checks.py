@@ -235,6 +235,7 @@ def test_a_profile_that_contradicts_the_repaired_text_proves_nothing(
     assert "R-7.4.4.2-i" in capsys.readouterr().err
 
 
+@pytest.mark.slow
 def test_a_check_tells_what_the_profile_breaks_and_ends_with_1(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -342,6 +342,7 @@ def test_a_command_may_be_cleared_a_little_before_the_mode_follows() -> None:
     assert audited([{"C_RunMD": m, "C_Cmd": c, "CS_RunSTA": s} for m, c, s in run]) == []
 
 
+@pytest.mark.slow
 def test_a_table_that_is_too_large_for_an_audit_is_a_bad_request(tmp_path: Path) -> None:
     entry = '[[vr-template.commands]]\nnumber = {n}\nname = "c{n}"\nsub_mode = {n}\nhoming = "homes"\n'
     numbers = [n for first in (101, 201, 301) for n in range(first, first + 40)]
