@@ -21,7 +21,7 @@ from mmsverify.concrete.evaluate import successors
 from mmsverify.model import BOOL, ModelData, Observation, Transition, internal, needs, parameter, shown
 from mmsverify.model.sorts import ElementSort
 
-CALM = settings(deadline=None, max_examples=60, suppress_health_check=list(HealthCheck))
+CALM = settings(deadline=None, max_examples=25, suppress_health_check=list(HealthCheck))
 THOROUGH = settings(CALM, max_examples=1500)
 
 Draw = Callable[[st.SearchStrategy[Any]], Any]

@@ -79,7 +79,7 @@ class Run:
         return answer, frozenset(self.made((*then, *self.procedure.always), state).items())
 
 
-@settings(deadline=None, max_examples=400, suppress_health_check=list(HealthCheck))
+@settings(deadline=None, max_examples=150, suppress_health_check=list(HealthCheck))
 @given(procedures())
 def test_rows_do_what_the_steps_do(situation: tuple[ModelData, Scope, Procedure]) -> None:
     model, scope, procedure = situation
