@@ -22,12 +22,12 @@ from mmsverify.audit.showing import Showing
 from mmsverify.audit.suspicion import alarming, of_caller, undecodable
 from mmsverify.audit.telling import History, Place, Telling
 from mmsverify.audit.transfers import UPLOADING, Transfers
-from mmsverify.concrete.belief import Belief
+from mmsverify.concrete.belief import Belief, attributes
 from mmsverify.concrete.belief.constraints import Constraints
 from mmsverify.concrete.belief.coverage import Coverage
 from mmsverify.concrete.belief.ground import Ground
 from mmsverify.concrete.belief.internal import Unseen
-from mmsverify.concrete.belief.partial import Growth, World
+from mmsverify.concrete.belief.partial import OTHER, Growth, World
 from mmsverify.concrete.belief.ready import Rows
 from mmsverify.errors import DecodeError
 from mmsverify.formats import mms
@@ -37,6 +37,14 @@ from mmsverify.model.rows import PLUS, Clause
 from mmsverify.results import Finding
 
 Told = Iterator[Finding | Breach]
+
+PROGRAM = "ProgramInvocation"
+LANES = {
+    "robot state": "robot_state", "logical status": "logical", "physical status": "physical",
+    "local control": "local_control",
+}  # fmt: skip
+"""What a timeline shows of a robot as a whole, with the model's names for it."""
+SELECTED, PROGRAM_LANE = "selected", "program"
 
 
 class Device:
@@ -91,6 +99,18 @@ class Device:
                 self.belief.unseen.forget()
             else:
                 self.belief.ground.fact(each)
+
+    def shows(self) -> dict[str, str]:
+        """What is known of the robot now, in words, by lane: the attributes of clause 6.1, then its programs.
+
+        Empty words where nothing is known; alternatives where it is one of a few.
+        """
+        ground, states = self.belief.ground, self.belief.states
+        programs = [name for name in self.belief.world.names[PROGRAM] if name != OTHER]
+        shown = {lane: attributes.attribute(ground, states, name) for lane, name in LANES.items()}
+        shown[SELECTED] = attributes.the_one(states, "selected", programs)
+        held = attributes.of_each(ground, states, "state", programs)
+        return shown | {f"{PROGRAM_LANE} {name}": state for name, state in held.items()}
 
     def settle(self) -> None:
         """What the last message showed is forgotten when the next one comes: forget it now."""

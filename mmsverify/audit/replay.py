@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 from mmsverify.audit.device import Device
+from mmsverify.audit.learning import part
 from mmsverify.audit.learning.classes import split, whole
 from mmsverify.audit.learning.lasting import Lasting
 from mmsverify.audit.learning.learned import Learned, Listener, Span
@@ -37,6 +38,16 @@ Judge = Listener | Callable[[TraceMessage, Stretch], Iterator[Finding]]
 """Takes the messages of a channel, and gives their findings."""
 
 
+class Watch(Protocol):
+    """Is told what is known of the devices of a recording while it is replayed."""
+
+    def begin(self) -> None:
+        """The run begins, or begins again: forget what was told."""
+
+    def of(self, device: str, model: str) -> part.Watch:
+        """Who is to be told of one device, which that model judges."""
+
+
 class _AgainError(Exception):
     """What has been judged was judged without knowing what the recording shows later."""
 
@@ -47,8 +58,10 @@ class Replay:
     ``exact``: every message is judged by itself, and nothing is learned from those before; the findings are
     the same. ``lasting``: what has been loaded and learned for other recordings. ``kernel``: whether compiled
     loops follow what was learned; where nothing is said, if they are installed and the recording is long.
-    ``passed`` is told how far it is. ``messages``, ``events`` and ``skipped`` are counts, true once the run
-    is over; ``coverage`` is what the events of each device have exercised, as far as they were not known.
+    ``passed`` is told how far it is. ``watch`` is told what is known of each device, from message to message,
+    and that a run begins again, after which what it has told counts no more. ``messages``, ``events`` and
+    ``skipped`` are counts, true once the run is over; ``coverage`` is what the events of each device have
+    exercised, as far as they were not known.
     """
 
     def __init__(
@@ -62,15 +75,18 @@ class Replay:
         lasting: Lasting | None = None,
         kernel: bool | None = None,
         passed: Stages | None = None,
+        watch: Watch | None = None,
     ) -> None:
         self.trace = trace
-        self._lasting = lasting or Lasting()
+        self._watch = watch
+        # Who is watched learns by itself: what others have learned does not say what is known in it.
+        self._lasting = lasting or Lasting() if watch is None else Lasting()
         self.parts = Parts(tables, variant, self._lasting, trace.path)
         self._exact, self._asked = exact, _known(model)
         self._ahead: Lookahead | None = None
         self._merged = False
         self._passed, self._tick = passed, Tick(stage(AUDITING, passed))
-        self._walk = self._quick_way(kernel)
+        self._walk = self._quick_way(kernel if watch is None else False)
         self._begin()
 
     def _quick_way(self, kernel: bool | None) -> Walk | Kernel:
@@ -99,6 +115,8 @@ class Replay:
         self._servers: dict[str, Server] = {}
         self._sure: set[tuple[str, str]] = set()
         self._judges: dict[int, tuple[Channel, Judge]] = {}
+        if self._watch is not None:
+            self._watch.begin()
 
     def run(self) -> Iterator[Finding]:
         """The findings, in event order; none before all are known, for it may be that all begins again."""
@@ -236,7 +254,12 @@ class Replay:
         if name not in self._learners:
             tables, place = self.parts.framework_tables, Place(self.trace.path, name)
             self._learners[name] = Learned(
-                partial(self.parts.controller, place), tables, _sample, whole=True, exact=self._exact
+                partial(self.parts.controller, place),
+                tables,
+                _sample,
+                whole=True,
+                exact=self._exact,
+                watch=None if self._watch is None else self._watch.of(name, FRAMEWORK),
             )
         return self._learners[name]
 
@@ -256,6 +279,7 @@ class Replay:
                 kind=(base_only, tuple(blind)),
                 exact=self._exact,
                 blind=blind,
+                watch=None if self._watch is None else self._watch.of(vmd, ROBOT),
             )
         return self._devices[vmd]
 

@@ -63,6 +63,11 @@ class Stretch:
         data = self.data[at + rec.MESSAGE_HEAD.size : at + rec.HEAD.size + length]
         return TraceMessage(self.index + self.passed(at), time, self.channel(number), data)
 
+    def time(self, at: int) -> int:
+        """The log time in ns of the message at that offset."""
+        found: int = rec.MESSAGE_HEAD.unpack_from(self.data, at)[4]
+        return found
+
     def passed(self, at: int) -> int:
         """How many messages were passed before the one at that offset, which was passed or is the next."""
         if not self.places or self.places[-1] < at:

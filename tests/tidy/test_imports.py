@@ -23,7 +23,7 @@ from sources import (
     top_level,
 )
 
-VOCABULARY = {"errors", "events", "results", "resources"}
+VOCABULARY = {"errors", "events", "results", "resources", "incident"}
 
 # What each part may import of the package, from the first to the last. Formats know no model and engines no
 # format; only the audit brings the two together.
@@ -31,6 +31,7 @@ ALLOWED = {
     "errors": set[str](),
     "events": {"errors"},
     "results": {"errors", "events"},
+    "incident": {"errors", "events", "results"},
     "resources": {"errors"},
     "profiles": {"errors", "resources", "results"},
     "model": VOCABULARY,
@@ -48,6 +49,7 @@ ALLOWED = {
 ROOTS = {
     "auditing": ALLOWED.keys() - {"symbolic", "graph", "report"},
     "explaining": ALLOWED.keys() - {"symbolic", "graph", "report", "fleet"},
+    "incidents": ALLOWED.keys() - {"symbolic", "graph", "report", "fleet"},
     "timelines": ALLOWED.keys() - {"symbolic", "graph"} | {"auditing"},
     "checking": ALLOWED.keys() - {"graph", "report"},
     "faults": ALLOWED.keys() - {"audit", "graph", "report"} | {"checking"},

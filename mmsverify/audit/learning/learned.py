@@ -17,7 +17,7 @@ from mmsverify.audit.learning.indifference import attempt, compared
 from mmsverify.audit.learning.leaves import Span as Place
 from mmsverify.audit.learning.leaves import TouchedError, read, real
 from mmsverify.audit.learning.marks import Index, InvokeId
-from mmsverify.audit.learning.part import Judge, P, Read
+from mmsverify.audit.learning.part import Judge, P, Read, Watch
 from mmsverify.audit.learning.snapshots import Mark, Own
 from mmsverify.audit.learning.tables import NEW, PRESENT, State, Step, Tables, event
 from mmsverify.audit.learning.trail import ListedTrail, Trail
@@ -44,7 +44,8 @@ class Learned(Generic[P]):
 
     ``make`` makes a part that has not seen anything, where one is needed; parts of one ``kind`` are then in
     the same state. ``whole``: its messages have no invokeIDs, and all that they say counts. ``exact``:
-    nothing is learned, and every message is judged by itself; so it is within the spans ``blind``.
+    nothing is learned, and every message is judged by itself; so it is within the spans ``blind``. ``watch``
+    is told what is known after every message; the tables must then be ones that nobody has used unwatched.
 
     Whoever follows a conversation by the tables alone moves ``state`` and ``invokes`` (the invokeIDs that are
     among the marks of the state), and adds the steps to the ``trail``.
@@ -60,12 +61,14 @@ class Learned(Generic[P]):
         whole: bool = False,
         exact: bool = False,
         blind: Sequence[Span] = (),
+        watch: Watch | None = None,
     ) -> None:
         self.tables = tables
         self.state: State | None = None
         self.invokes: tuple[int, ...] = ()
         self.trail: Trail = ListedTrail()
         self._exact, self._blind, self._judge, self._whole = exact, blind, judge, whole
+        self._watch = watch
         self._history = History()
         self._make = make
         self._heard: dict[str, tuple[Split, Classes]] = {}
@@ -95,6 +98,26 @@ class Learned(Generic[P]):
         return Listener(self, classes, split, self._whole)
 
     def hear(
+        self,
+        message: TraceMessage,
+        stretch: Stretch,
+        parts: tuple[bytes, int | None] | None,
+        classes: Classes,
+        judge: Judge[P] | None = None,
+    ) -> Iterator[Finding]:
+        """The findings of a message that was not followed by the tables alone, as `_heard_alone` takes it."""
+        yield from self._heard_alone(message, stretch, parts, classes, judge)
+        if self._watch is not None:
+            self._look(self._watch, message, stretch)
+
+    def _look(self, watch: Watch, message: TraceMessage, stretch: Stretch) -> None:
+        """Tell what is known after a message, if no trail is left that tells it."""
+        if not self.trail:
+            state = self.state
+            shows = state.shows if state is not None else None
+            watch(message.index, message.time, self.awake(stretch).shows() if shows is None else shows)
+
+    def _heard_alone(
         self,
         message: TraceMessage,
         stretch: Stretch,
@@ -280,6 +303,8 @@ class Learned(Generic[P]):
         self._marks = list(taken.marks)
         self.state = self.tables.state(taken, self._grown)
         self.invokes = tuple(int(mark) for mark in self._marks if isinstance(mark, InvokeId))
+        if self._watch is not None and self.state is not None and self.state.shows is None:
+            self.state.shows = part.shows()
 
     def _sources(
         self, marks: Sequence[Mark], message: TraceMessage, invoke: int | None
@@ -300,6 +325,8 @@ class Learned(Generic[P]):
         """Write down what the steps of the trail have done, before their stretch is gone."""
         if not self.trail:
             return
+        if self._watch is not None:
+            self._tell_trail(self._watch, stretch)
         for step, passed in self.trail.last_written(stretch):
             self._written[step] = stretch.index + passed
         assert self.state is not None
@@ -310,6 +337,16 @@ class Learned(Generic[P]):
         ]
         self._part = None
         self.trail.clear()
+
+    def _tell_trail(self, watch: Watch, stretch: Stretch) -> None:
+        """Tell where on the trail something else was known than before."""
+        assert isinstance(self.trail, ListedTrail), "who is watched goes without the kernel"
+        before = None
+        for step, at in zip(self.trail.steps, self.trail.places, strict=True):
+            shows = step.target.shows
+            if shows is not None and shows is not before:
+                watch(stretch.index + stretch.passed(at), stretch.time(at), shows)
+            before = shows
 
     def _traced(self, place: int, kind: type, stretch: Stretch) -> Mark:
         """A mark of the present state, from the message that it comes from."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any, ClassVar, Protocol, TypeVar
 
 from mmsverify.audit.telling import History
@@ -24,6 +24,7 @@ class Part(Protocol):
     def grown(self) -> Sequence[Any]: ...
     def grow(self, grown: Iterable[Any]) -> None: ...
     def settle(self) -> None: ...
+    def shows(self) -> Mapping[str, str]: ...
 
 
 P = TypeVar("P", bound=Part)
@@ -31,3 +32,5 @@ Read = Callable[[TraceMessage], Any]
 """Decodes a message."""
 Judge = Callable[[P, TraceMessage, Read | None], Iterator[Finding]]
 """Gives the findings of a message, which is read in that way, where one is given."""
+Watch = Callable[[int, int, Mapping[str, str]], None]
+"""Is told what is known of a part after a message: its index, its time in ns, each lane with its words."""

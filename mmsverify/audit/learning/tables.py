@@ -47,7 +47,7 @@ class Grown:
 class State:
     """A state of a device: how to put it back, which of its marks are invokeIDs, and the steps from it.
 
-    ``leafy`` as in `Snapshot`.
+    ``leafy`` as in `Snapshot`. ``shows`` is what is known in it, in words, where somebody watches.
 
     Steps are by ``event``.
     """
@@ -58,6 +58,7 @@ class State:
     leafy: bool
     invokes: tuple[int, ...]
     steps: dict[int, Step] = field(default_factory=dict)
+    shows: Mapping[str, str] | None = None
 
 
 @dataclass(slots=True, eq=False)

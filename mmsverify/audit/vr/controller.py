@@ -26,6 +26,8 @@ from mmsverify.results import Finding
 MODE, STATUS, COMMAND, HOMED = "C_RunMD", "CS_RunSTA", "C_Cmd", "CF_Home"
 CELL_OF = {"mode": MODE, "status": STATUS}
 STOPS, AUTO_ORG, SUB_MODE = "CF_Stop", "CF_AutoOrg", "C_SubMD"
+MOST_WORDS = 3
+"""So many alternatives are still worth telling."""
 SCAN = "scan"
 LAG = 3
 """So many samples a command may stand in C_Cmd before the mode follows: nothing says when it is cleared."""
@@ -108,6 +110,14 @@ class Controller:
 
     def grow(self, grown: Iterable[object]) -> None:
         """Nothing to grow."""
+
+    def shows(self) -> dict[str, str]:
+        """What is known of the controller now, in words, by lane; several where it may be one or another."""
+        value, command = self._scans.automaton.value, self._cells.get(COMMAND, 0)
+        held = {lane: sorted({str(value(state, lane)) for state in self._states}) for lane in CELL_OF}
+        lanes = {lane: " | ".join(words) if len(words) <= MOST_WORDS else "" for lane, words in held.items()}
+        named = self._numbering.commands.get(int(command)) or str(vr.plain(command) or "")
+        return lanes | {"command": named}
 
     def settle(self) -> None:
         """Nothing waits for the next sample to be forgotten."""

@@ -1,0 +1,222 @@
+"""The composition root of reports: a recording and its findings in, what a reader needs to see of it out.
+
+The recording is replayed once more, watched, and read once more for what was said around the findings.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from bisect import bisect_left
+from collections import defaultdict, deque
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from pathlib import Path
+
+from mmsverify.audit.parts import SIGNALS
+from mmsverify.audit.replay import Replay
+from mmsverify.audit.saying import Reader
+from mmsverify.errors import InputError
+from mmsverify.formats.locations import Location, located
+from mmsverify.formats.mcap import McapTrace, read_trace
+from mmsverify.formats.trace import TraceMessage
+from mmsverify.incident import Change, DeviceLine, Incident, Lane, Origin, Saying
+from mmsverify.profiles import for_recording, within_framework
+from mmsverify.results import Finding
+
+__all__ = ["reconstruct", "timeline"]
+
+BEFORE, AFTER = 8, 3
+"""So many messages of the device before that of a finding, and after it, are shown."""
+MOST_WINDOWS = 400
+"""Findings of one recording whose surroundings are kept."""
+BLOCK = 1 << 20
+Kept = tuple[str, int, TraceMessage]
+"""A message with its device, and the number that it has among that device's messages."""
+
+
+def reconstruct(
+    path: str | Path | Location,
+    findings: Sequence[Finding],
+    *,
+    profile: Path | None = None,
+    model: str | None = None,
+    variant: str = "repaired",
+) -> Incident:
+    """What there is to be seen of one recording, around those of the ``findings`` that are its own.
+
+    Raises ``InputError`` where the recording cannot be read at all, ``ProfileError`` for a bad profile.
+    """
+    location = located(path)
+    trace = read_trace(location)
+    own = [found for found in findings if found.path == trace.path]
+    surroundings = Surroundings(_centres(own))
+    devices = _devices(trace, profile, model, variant, surroundings)
+    return Incident(_origin(trace), devices, surroundings.sayings, surroundings.windows)
+
+
+def timeline(
+    path: str | Path | Location,
+    *,
+    profile: Path | None = None,
+    model: str | None = None,
+    variant: str = "repaired",
+) -> list[DeviceLine]:
+    """What is known of each device of a recording, from message to message."""
+    return _devices(read_trace(located(path)), profile, model, variant, Surroundings([]))
+
+
+# What is known from message to message.
+
+
+@dataclass(slots=True)
+class Watched:
+    """A watch over all devices: what is known of each, kept where it changes."""
+
+    lanes: dict[tuple[str, str], dict[str, list[Change]]] = field(default_factory=dict)
+
+    def begin(self) -> None:
+        """All begins again."""
+        self.lanes.clear()
+
+    def of(self, device: str, model: str) -> partial[None]:
+        """Who takes down what is known of one device."""
+        return partial(_take_down, self.lanes.setdefault((device, model), {}))
+
+
+def _take_down(lanes: dict[str, list[Change]], index: int, time: int, shows: Mapping[str, str]) -> None:
+    for name, words in shows.items():
+        changes = lanes.setdefault(name, [])
+        if (changes[-1].words if changes else "") != words:
+            changes.append(Change(index, time, words))
+
+
+@dataclass(slots=True)
+class Span:
+    """The messages of one device: how many, the times in ns of the first and the last, its links' events."""
+
+    begin: int
+    end: int = 0
+    messages: int = 0
+    links: list[Change] = field(default_factory=list)
+
+
+def _devices(
+    trace: McapTrace, profile: Path | None, model: str | None, variant: str, surroundings: Surroundings
+) -> list[DeviceLine]:
+    tables = within_framework(for_recording(profile, trace.profile, trace.path))
+    watched = Watched()
+    try:
+        for _ in Replay(trace, tables, model, variant, watch=watched).run():
+            pass
+    except InputError:
+        pass  # the audit has told of it; what was read until then is shown
+    spans = _spans(trace, surroundings)
+    by_device = {device: (model, lanes) for (device, model), lanes in watched.lanes.items()}
+    return [_line(name, span, *by_device.get(name, (SIGNALS, {}))) for name, span in spans.items() if name]
+
+
+def _line(device: str, span: Span, model: str, lanes: Mapping[str, list[Change]]) -> DeviceLine:
+    shown = [Lane(name, tuple(changes)) for name, changes in lanes.items() if changes]
+    return DeviceLine(device, model, span.begin, span.end, span.messages, shown, tuple(span.links))
+
+
+def _spans(trace: McapTrace, surroundings: Surroundings) -> dict[str, Span]:
+    """When each device was heard; on the way, what was said around the findings is taken down."""
+    spans: dict[str, Span] = {}
+    for message in _readable(trace):
+        names = message.metadata
+        device = names.get("vmd") or names.get("controller") or names.get("name") or ""
+        span = spans.get(device)
+        if span is None:
+            span = spans[device] = Span(message.time)
+        span.end = message.time
+        span.messages += 1
+        surroundings.pass_by(device, message, span)
+    surroundings.end()
+    return spans
+
+
+def _readable(trace: McapTrace) -> Iterator[TraceMessage]:
+    """The messages up to where the recording is damaged: the audit has told of that already."""
+    try:
+        yield from trace
+    except InputError:
+        return
+
+
+# What was said around the findings.
+
+
+def _centres(findings: Iterable[Finding]) -> list[tuple[int, tuple[int, ...]]]:
+    """The indices of the messages with findings, each with those that are related: the first so many."""
+    related: dict[int, set[int]] = defaultdict(set)
+    for found in findings:
+        if found.index is not None:
+            related[found.index].update(found.related)
+    return [(index, tuple(sorted(related[index]))) for index in sorted(related)[:MOST_WINDOWS]]
+
+
+class Surroundings:
+    """Takes down the messages around some, while all of them pass by in order."""
+
+    def __init__(self, centres: Sequence[tuple[int, tuple[int, ...]]]) -> None:
+        self.sayings: dict[int, Saying] = {}
+        self.windows: dict[int, list[int]] = {index: [] for index, _ in centres}
+        self._related = dict(centres)
+        self._alone = sorted({other for _, related in centres for other in related})
+        self._lately: dict[str, deque[Kept]] = {}
+        self._open: dict[str, list[int]] = {}
+        self._kept: dict[int, Kept] = {}
+
+    def pass_by(self, device: str, message: TraceMessage, span: Span) -> None:
+        """The next message, of that device."""
+        if message.schema_name == "link.Event":
+            said = Reader().saying(message)
+            what = said.title.removeprefix("link: ")
+            span.links.append(Change(message.index, message.time, f"{what} {said.partner}"))
+        if not self.windows:
+            return
+        lately = self._lately.setdefault(device, deque(maxlen=BEFORE + 1))
+        waiting = self._open.setdefault(device, [])
+        kept = device, span.messages, message
+        lately.append(kept)
+        index, follows = message.index, bool(waiting)
+        for centre in list(waiting):
+            self.windows[centre].append(index)
+            if sum(later > centre for later in self.windows[centre]) >= AFTER:
+                waiting.remove(centre)
+        if index in self.windows:
+            self.windows[index] = [each.index for _, _, each in lately]
+            self._kept |= {each.index: (device, number, each) for _, number, each in lately}
+            waiting.append(index)
+        elif follows or self._is_related(index):
+            self._kept[index] = kept
+
+    def _is_related(self, index: int) -> bool:
+        at = bisect_left(self._alone, index)
+        return at < len(self._alone) and self._alone[at] == index
+
+    def end(self) -> None:
+        """All have passed: put what was kept in words."""
+        readers: dict[str, tuple[int, Reader]] = {}
+        for index, (device, number, message) in sorted(self._kept.items()):
+            last, reader = readers.get(device, (0, Reader()))
+            if number != last + 1:  # of messages in between, nobody knows which answers are whose
+                reader = Reader()
+            readers[device] = number, reader
+            self.sayings[index] = reader.saying(message)
+        for centre, window in self.windows.items():
+            known = [index for index in self._related[centre] if index in self.sayings]
+            window[:] = sorted({*window, *known})
+
+
+def _origin(trace: McapTrace) -> Origin:
+    path = Path(trace.path)
+    if not path.is_file():
+        return Origin(trace.path, trace.octets, "")
+    digest = hashlib.sha256()
+    with path.open("rb") as file:
+        while block := file.read(BLOCK):
+            digest.update(block)
+    return Origin(trace.path, path.stat().st_size, digest.hexdigest())
