@@ -95,3 +95,16 @@ class Incident:
     devices: Sequence[DeviceLine]
     sayings: Mapping[int, Saying] = field(default_factory=dict)
     windows: Mapping[int, Sequence[int]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Dossier:
+    """What a report shows beside an audit: its incidents by path, what the cited statements say, by whom.
+
+    ``statements`` are in the project's words, by id. ``judged`` are name and value of what the result rests
+    on: model, variant, profile, version.
+    """
+
+    incidents: Mapping[str, Incident] = field(default_factory=dict)
+    statements: Mapping[str, str] = field(default_factory=dict)
+    judged: Sequence[tuple[str, str]] = ()

@@ -20,11 +20,14 @@ from mmsverify.errors import InputError
 from mmsverify.formats.locations import Location, located
 from mmsverify.formats.mcap import McapTrace, read_trace
 from mmsverify.formats.trace import TraceMessage
-from mmsverify.incident import Change, DeviceLine, Incident, Lane, Origin, Saying
+from mmsverify.incident import Change, DeviceLine, Dossier, Incident, Lane, Origin, Saying
+from mmsverify.model.load import find
 from mmsverify.profiles import for_recording, within_framework
-from mmsverify.results import Finding
+from mmsverify.register.statements import read_statements
+from mmsverify.resources import models_dir
+from mmsverify.results import Audit, Finding
 
-__all__ = ["reconstruct", "timeline"]
+__all__ = ["dossier", "reconstruct", "timeline"]
 
 BEFORE, AFTER = 8, 3
 """So many messages of the device before that of a finding, and after it, are shown."""
@@ -64,6 +67,33 @@ def timeline(
 ) -> list[DeviceLine]:
     """What is known of each device of a recording, from message to message."""
     return _devices(read_trace(located(path)), profile, model, variant, Surroundings([]))
+
+
+def dossier(
+    audit: Audit,
+    *,
+    profile: Path | None = None,
+    model: str | None = None,
+    variant: str = "repaired",
+) -> Dossier:
+    """What a report shows beside an audit, which was made with this profile, model and variant."""
+    incidents = {
+        entry.path: reconstruct(entry.path, audit.findings, profile=profile, model=model, variant=variant)
+        for entry in audit.inputs
+    }
+    models = sorted({device.model for each in incidents.values() for device in each.devices})
+    judged = [("model", ", ".join(models)), ("variant", variant)]
+    judged.append(("profile", str(profile) if profile else "what each recording says of itself"))
+    return Dossier(incidents, _statements(audit, models), judged)
+
+
+def _statements(audit: Audit, models: Sequence[str]) -> dict[str, str]:
+    """What the statements say that the findings cite."""
+    cited = {each for found in audit.findings for each in found.clauses}
+    said = {}
+    for model in models:
+        said |= {each.id: each.says for each in read_statements(find(model, models_dir())).values()}
+    return {each: said[each] for each in sorted(cited & said.keys())}
 
 
 # What is known from message to message.

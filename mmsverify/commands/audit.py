@@ -14,6 +14,7 @@ from mmsverify.commands.output import emit, remark, require_writable
 from mmsverify.errors import InputError, UsageError
 from mmsverify.fleet.tasks import LOCAL, UNREADABLE
 from mmsverify.formats.locations import Location, local
+from mmsverify.incident import Dossier
 from mmsverify.formats.paths import trace_locations
 from mmsverify.report import AUDIT_FORMATS, render_audit, require_format
 from mmsverify.report.wording import counted
@@ -108,7 +109,7 @@ def audit(
     else:
         require_writable(output, local(paths))
         result = _audited(paths, given, quiet=quiet)
-        emit(render_audit(result, format), output)
+        emit(render_audit(result, format, _dossier(result, given) if format == "html" else None), output)
     if annotate is not None:
         _annotate(paths[0], result, annotate, quiet=quiet)
     return int(any(finding.severity == "error" for finding in result.findings))
@@ -151,6 +152,12 @@ def _audited(paths: list[Location], given: Options, *, quiet: bool) -> Audit:
         result = audit_traces(paths, progress=report, **given)
     _require_read(result)
     return result
+
+
+def _dossier(result: Audit, given: Options) -> Dossier:
+    from mmsverify.incidents import dossier
+
+    return dossier(result, profile=given["profile"], model=given["model"], variant=given["variant"])
 
 
 def _to_dataset(paths: list[Location], folder: Path | None, given: Options, *, quiet: bool) -> Audit:

@@ -11,8 +11,8 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 from mmsverify.errors import UsageError
+from mmsverify.incident import Dossier
 from mmsverify.report import (
-    audit_html,
     audit_json,
     audit_junit,
     audit_sarif,
@@ -23,6 +23,7 @@ from mmsverify.report import (
     clauses_text,
     explanation_json,
     explanation_text,
+    html,
     imports,
     recording,
     survey_json,
@@ -53,7 +54,7 @@ AUDIT_FORMATS: Mapping[str, Callable[[Audit], str]] = {
     "json": audit_json.render,
     "sarif": audit_sarif.render,
     "junit": audit_junit.render,
-    "html": audit_html.render,
+    "html": html.render,
 }
 
 CHECK_FORMATS: Mapping[str, Callable[[Sequence[ModelCheck]], str]] = {
@@ -87,9 +88,13 @@ RECORD_FORMATS: Mapping[str, Callable[[str, recording.Recording], str]] = {
 }
 
 
-def render_audit(audit: Audit, format: str) -> str:
-    """The audit in ``format``, a key of ``AUDIT_FORMATS``; the text ends with a line feed."""
-    return AUDIT_FORMATS[require_format(format, AUDIT_FORMATS)](audit)
+def render_audit(audit: Audit, format: str, dossier: Dossier | None = None) -> str:
+    """The audit in ``format``, a key of ``AUDIT_FORMATS``; the text ends with a line feed.
+
+    ``dossier``: what a page shows beside the findings; the other formats have no room for it.
+    """
+    render = AUDIT_FORMATS[require_format(format, AUDIT_FORMATS)]
+    return html.render(audit, dossier) if render is html.render else render(audit)
 
 
 def render_check(checks: Sequence[ModelCheck], format: str) -> str:

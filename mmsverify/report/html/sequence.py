@@ -1,0 +1,81 @@
+"""Messages around a finding as a sequence chart: clients at the left, the device at the right.
+
+An answer is joined to its request by the bar on the device's line: so long was the request under way there.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence, Set
+
+from mmsverify.incident import CLIENT, Saying
+from mmsverify.report.html.text import element, text
+from mmsverify.report.wording import instant
+
+STEP, TOP, LEFT = 30, 46, 150
+"""Pixels: from message to message, above the first, and left of the first line."""
+ACROSS, BETWEEN = 360, 130
+"""Pixels from the last client's line to the device's, and between those of two clients."""
+LETTERS = 46
+"""Characters of a title that are shown in the chart."""
+
+
+def chart(said: Sequence[Saying], finding: int, related: Set[int]) -> str:
+    """The chart of these messages; the one with the finding and those that led up to it are marked."""
+    partners = list(dict.fromkeys(each.partner for each in said if each.sender))
+    at = {partner: LEFT + BETWEEN * number for number, partner in enumerate(partners)}
+    device = LEFT + BETWEEN * max(len(partners) - 1, 0) + ACROSS
+    height = TOP + STEP * len(said) + 10
+    rows = {each.index: TOP + STEP * row for row, each in enumerate(said)}
+    name = next((each.device for each in said if each.device), "device")
+    parts = [_line(x, height, partner) for partner, x in at.items()] + [_line(device, height, name)]
+    parts += [_bar(device, rows[each.answers], rows[each.index]) for each in said if each.answers in rows]
+    parts += [_message(each, rows[each.index], at.get(each.partner, LEFT), device, finding, related) for each in said]
+    label = f"Sequence chart of {len(said)} messages around message {finding}"
+    drawn = element(
+        "svg", "\n".join(parts), class_="sequence", role="img", aria_label=label,
+        viewBox=f"0 0 {device + 130} {height}", width=device + 130, height=height,
+    )  # fmt: skip
+    return element("div", drawn, class_="scroll", tabindex=0) + "\n"
+
+
+def _line(x: int, height: int, name: str) -> str:
+    shown = text(name if len(name) <= 18 else f"{name[:17]}...")
+    return (
+        f'<line class="life" x1="{x}" x2="{x}" y1="26" y2="{height}"/>'
+        f'<text class="name" x="{x}" y="16" text-anchor="middle">{shown}</text>'
+    )
+
+
+def _bar(x: int, begin: int, end: int) -> str:
+    return f'<rect class="served" x="{x - 4}" width="8" y="{begin}" height="{end - begin}"/>'
+
+
+def _message(
+    each: Saying, y: int, partner: int, device: int, finding: int, related: Set[int]
+) -> str:
+    mark = " finding" if each.index == finding else " related" if each.index in related else ""
+    title = each.title if len(each.title) <= LETTERS else f"{each.title[: LETTERS - 1]}..."
+    told = element("title", text(_whole(each)))
+    place = f'<text class="index" x="8" y="{y + 4}">{each.index}</text>'
+    if not each.sender:
+        shape = f'<rect class="beside" x="{device - 5}" y="{y - 5}" width="10" height="10"/>'
+        label = f'<text x="{device - 14}" y="{y + 4}" text-anchor="end">{text(_short(each, title))}</text>'
+        return f'<g class="say{mark}">{told}{place}{shape}{label}</g>'
+    begin, end = (partner, device) if each.sender == CLIENT else (device, partner)
+    tip = end - 8 if end > begin else end + 8
+    arrow = f'<line class="arrow" x1="{begin}" x2="{tip}" y1="{y}" y2="{y}"/>'
+    head = f'<path class="tip" d="M{end} {y} L{tip} {y - 4} L{tip} {y + 4} z"/>'
+    middle = (max(partner, device - ACROSS) + device) // 2
+    label = f'<text x="{middle}" y="{y - 5}" text-anchor="middle">{text(title)}</text>'
+    return f'<g class="say{mark}">{told}{place}{arrow}{head}{label}</g>'
+
+
+def _short(each: Saying, title: str) -> str:
+    """A sample by the values of its first cells."""
+    values = ", ".join(f"{name}={value}" for name, value in each.fields[:3])
+    return f"{title} {values}" if values else f"{title} {each.partner}"
+
+
+def _whole(each: Saying) -> str:
+    values = "; ".join(f"{name} = {value}" for name, value in each.fields)
+    return f"{instant(each.time)} {each.title} {each.fault or values}"

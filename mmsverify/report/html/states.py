@@ -1,0 +1,99 @@
+"""The path of a device through its states: what states it was known to be in, and how often it went where."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence, Set
+from math import cos, hypot, pi, sin
+
+from mmsverify.incident import DeviceLine, Lane
+from mmsverify.report.html.text import element, text
+
+STATES = ("robot state", "mode")
+"""The lanes of which the path is drawn."""
+RADIUS, ACROSS, DOWN = 150, 118, 15
+"""Pixels: of the circle, and half a box."""
+MOST = 14
+
+
+def path(line: DeviceLine, odd: Set[int]) -> str:
+    """The diagram of one device; transitions at the messages ``odd``, which have findings, stand out."""
+    lane = next((lane for lane in line.lanes if lane.name in STATES and len(lane.changes) > 1), None)
+    return "" if lane is None else _drawn(lane, odd)
+
+
+def _drawn(lane: Lane, odd: Set[int]) -> str:
+    sure = [change for change in lane.changes if change.words and " | " not in change.words]
+    steps: Counter[tuple[str, str]] = Counter()
+    wrong: set[tuple[str, str]] = set()
+    for one, other in zip(sure, sure[1:], strict=False):
+        if one.words != other.words:
+            steps[one.words, other.words] += 1
+            if any(one.index < index <= other.index for index in odd):
+                wrong.add((one.words, other.words))
+    states = list(dict.fromkeys(change.words for change in sure))[:MOST]
+    if len(states) < 2:
+        return ""
+    places = _places(states)
+    arrows = [
+        _arrow(places[one], places[other], count, odd=(one, other) in wrong)
+        for (one, other), count in steps.items()
+        if one in places and other in places
+    ]
+    last = sure[-1].words
+    boxes = [_box(name, *places[name], last=name == last) for name in states]
+    width, height = 2 * (RADIUS + ACROSS) + 60, 2 * (RADIUS + DOWN) + 30
+    return element(
+        "svg", "\n".join([*arrows, *boxes]), class_="states", role="img", width=width, height=height,
+        viewBox=f"{-width // 2} {-height // 2} {width} {height}",
+        aria_label=f"The path through the values of {lane.name}",
+    )  # fmt: skip
+
+
+def _places(states: Sequence[str]) -> dict[str, tuple[float, float]]:
+    turn = 2 * pi / len(states)
+    return {name: (1.25 * RADIUS * sin(n * turn), -RADIUS * cos(n * turn)) for n, name in enumerate(states)}
+
+
+def _box(name: str, x: float, y: float, *, last: bool) -> str:
+    half = min(ACROSS, 4 * len(name) + 14)
+    return (
+        f'<g class="state{" last" if last else ""}"><rect x="{x - half:.0f}" y="{y - DOWN:.0f}" '
+        f'width="{2 * half:.0f}" height="{2 * DOWN}" rx="7"/>'
+        f'<text x="{x:.0f}" y="{y + 4:.0f}" text-anchor="middle">{text(name)}</text></g>'
+    )
+
+
+def _arrow(one: tuple[float, float], other: tuple[float, float], count: int, *, odd: bool) -> str:
+    """Bent to its left, so that there and back are two arrows."""
+    (x1, y1), (x2, y2) = one, other
+    long = hypot(x2 - x1, y2 - y1)
+    aside, along = ((y1 - y2) / long, (x2 - x1) / long), ((x2 - x1) / long, (y2 - y1) / long)
+    bend = 26 + long / 12
+    middle = ((x1 + x2) / 2 + bend * aside[0], (y1 + y2) / 2 + bend * aside[1])
+    begin, end = _edge(one, middle), _edge(other, middle)
+    head = _head(end, middle)
+    kind = "step odd" if odd else "step"
+    title = element("title", f"{count} times" + (", with a finding" if odd else ""))
+    at = (middle[0] * 0.5 + (begin[0] + end[0]) * 0.25, middle[1] * 0.5 + (begin[1] + end[1]) * 0.25)
+    label = f'<text x="{at[0] + 4 * along[1]:.0f}" y="{at[1] + 4:.0f}" text-anchor="middle">{count}</text>'
+    return (
+        f'<g class="{kind}">{title}<path d="M{begin[0]:.0f} {begin[1]:.0f} Q{middle[0]:.0f} {middle[1]:.0f} '
+        f'{end[0]:.0f} {end[1]:.0f}"/><path class="tip" d="{head}"/>{label}</g>'
+    )
+
+
+def _edge(box: tuple[float, float], towards: tuple[float, float]) -> tuple[float, float]:
+    """Where the way out of a box leaves it."""
+    dx, dy = towards[0] - box[0], towards[1] - box[1]
+    scale = min(70 / abs(dx) if dx else 9, (DOWN + 3) / abs(dy) if dy else 9, 1)
+    return box[0] + dx * scale, box[1] + dy * scale
+
+
+def _head(end: tuple[float, float], behind: tuple[float, float]) -> str:
+    dx, dy = end[0] - behind[0], end[1] - behind[1]
+    long = hypot(dx, dy) or 1
+    ux, uy = dx / long, dy / long
+    left = end[0] - 9 * ux - 4 * uy, end[1] - 9 * uy + 4 * ux
+    right = end[0] - 9 * ux + 4 * uy, end[1] - 9 * uy - 4 * ux
+    return f"M{end[0]:.0f} {end[1]:.0f} L{left[0]:.0f} {left[1]:.0f} L{right[0]:.0f} {right[1]:.0f} z"
