@@ -90,7 +90,7 @@ def dossier(
 def _statements(audit: Audit, models: Sequence[str]) -> dict[str, str]:
     """What the statements say that the findings cite."""
     cited = {each for found in audit.findings for each in found.clauses}
-    said = {}
+    said: dict[str, str] = {}
     for model in models:
         said |= {each.id: each.says for each in read_statements(find(model, models_dir())).values()}
     return {each: said[each] for each in sorted(cited & said.keys())}

@@ -14,8 +14,8 @@ from mmsverify.commands.output import emit, remark, require_writable
 from mmsverify.errors import InputError, UsageError
 from mmsverify.fleet.tasks import LOCAL, UNREADABLE
 from mmsverify.formats.locations import Location, local
-from mmsverify.incident import Dossier
 from mmsverify.formats.paths import trace_locations
+from mmsverify.incident import Dossier
 from mmsverify.report import AUDIT_FORMATS, render_audit, require_format
 from mmsverify.report.wording import counted
 from mmsverify.results import Audit, AuditedInput, Finding

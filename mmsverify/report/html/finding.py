@@ -118,6 +118,14 @@ def _around(finding: Finding, incident: Incident | None) -> str:
 
 def _row(saying: Saying, mark: str) -> str:
     values = ", ".join(f"{name} = {value}" for name, value in saying.fields)
-    sender = f"{saying.partner} {saying.sender}" if saying.sender == "client" else saying.sender or saying.partner
-    told = (str(saying.index), clock(saying.time), text(sender), text(saying.title), text(saying.fault or values))
+    sender = (
+        f"{saying.partner} {saying.sender}" if saying.sender == "client" else saying.sender or saying.partner
+    )
+    told = (
+        str(saying.index),
+        clock(saying.time),
+        text(sender),
+        text(saying.title),
+        text(saying.fault or values),
+    )
     return element("tr", "".join(f"<td>{cell}</td>" for cell in told), class_=mark or None) + "\n"

@@ -74,7 +74,9 @@ def _inputs(audit: Audit) -> str:
         _input(name, entry, len(found), sum(f.count for f in found if f.rule.endswith("undecodable")))
         for name, entry, found in told
     )
-    return f'<section id="inputs"><h2>What was read</h2><table class="inputs">{head}\n{rows}</table></section>'
+    return (
+        f'<section id="inputs"><h2>What was read</h2><table class="inputs">{head}\n{rows}</table></section>'
+    )
 
 
 def _input(name: str, entry: AuditedInput | None, findings: int, undecoded: int) -> str:
@@ -96,7 +98,7 @@ def _first(findings: Sequence[Numbered]) -> str:
     if not first:
         return ""
     items = "".join(
-        f'<li><b>{text(device or each.finding.path)}</b> {clock(each.finding.time)} '
+        f"<li><b>{text(device or each.finding.path)}</b> {clock(each.finding.time)} "
         f'<a href="#{each.anchor}">{text(each.finding.message)}</a></li>\n'
         for (_, device), each in first.items()
     )
@@ -113,8 +115,8 @@ def _devices(findings: Sequence[Numbered], dossier: Dossier) -> str:
     if not shown:
         return ""
     tools = (
-        '<p class="tools zoom" hidden><button data-zoom="in">zoom in</button> <button data-zoom="out">zoom out'
-        '</button> <button data-zoom="left">earlier</button> <button data-zoom="right">later</button> '
+        '<p class="tools zoom" hidden><button data-zoom="in">zoom in</button> '
+        '<button data-zoom="out">zoom out</button> <button data-zoom="left">earlier</button> <button data-zoom="right">later</button> '
         '<button data-zoom="all">all</button> <output></output></p>'
     )
     return f'<section id="devices"><h2>What was known, and when</h2>\n{tools}{shown}</section>'
@@ -123,9 +125,12 @@ def _devices(findings: Sequence[Numbered], dossier: Dossier) -> str:
 def _device(incident: Incident, findings: Sequence[Numbered]) -> str:
     told = ""
     for device in incident.devices:
-        own = [e for e in findings if e.finding.path == incident.origin.path and e.finding.vmd == device.device]
+        own = [
+            e for e in findings if e.finding.path == incident.origin.path and e.finding.vmd == device.device
+        ]
         odd = {each.finding.index for each in own if each.finding.index is not None}
-        title = f"<h3>{text(device.device)} <small>{text(device.model)}, {text(incident.origin.path)}</small></h3>"
+        about = f"{text(device.model)}, {text(incident.origin.path)}"
+        title = f"<h3>{text(device.device)} <small>{about}</small></h3>"
         told += element(
             "section",
             f"{title}\n{timeline(device, own)}{folded('The path through its states', path(device, odd))}",
@@ -156,7 +161,7 @@ def _filters(findings: Sequence[Numbered]) -> str:
         '<form class="tools filters" hidden role="search"><label>search <input type="search" name="text" '
         f'placeholder="clause, name, message (/)"></label> {boxes}{_choice("device", devices)} '
         f'{_choice("rule", rules)} <button type="reset">all</button> '
-        f'<output>{counted(len(findings), "finding")}</output></form>\n'
+        f"<output>{counted(len(findings), 'finding')}</output></form>\n"
     )
 
 
@@ -168,7 +173,9 @@ def _choice(name: str, values: Sequence[str]) -> str:
 def _group(group: Group, dossier: Dossier) -> str:
     says = dossier.statements.get(group.clause, "")
     device = text(group.device) if group.device else text(group.path)
-    title = f"<h3>{device}: {text(group.clause)} <small>{counted(len(group.findings), 'finding')}</small></h3>"
+    title = (
+        f"<h3>{device}: {text(group.clause)} <small>{counted(len(group.findings), 'finding')}</small></h3>"
+    )
     about = element("p", text(says), class_="says") if says else ""
     wholes = "".join(whole(each, dossier) for each in group.findings if each.whole)
     return element("section", f"{title}\n{about}{wholes}{_lines(group)}", class_="group") + "\n"

@@ -15,8 +15,8 @@ STEP, TOP, LEFT = 30, 46, 150
 """Pixels: from message to message, above the first, and left of the first line."""
 ACROSS, BETWEEN = 360, 130
 """Pixels from the last client's line to the device's, and between those of two clients."""
-LETTERS = 46
-"""Characters of a title that are shown in the chart."""
+LETTERS, WIDE = 46, 64
+"""Characters of a title, and of what a sample shows, for which there is room in the chart."""
 
 
 def chart(said: Sequence[Saying], finding: int, related: Set[int]) -> str:
@@ -26,10 +26,20 @@ def chart(said: Sequence[Saying], finding: int, related: Set[int]) -> str:
     device = LEFT + BETWEEN * max(len(partners) - 1, 0) + ACROSS
     height = TOP + STEP * len(said) + 10
     rows = {each.index: TOP + STEP * row for row, each in enumerate(said)}
+    known: dict[str, str] = {}
+    news = [_news(each, known) for each in said]
     name = next((each.device for each in said if each.device), "device")
     parts = [_line(x, height, partner) for partner, x in at.items()] + [_line(device, height, name)]
     parts += [_bar(device, rows[each.answers], rows[each.index]) for each in said if each.answers in rows]
-    parts += [_message(each, rows[each.index], at.get(each.partner, LEFT), device, finding, related) for each in said]
+    for each, new in zip(said, news, strict=True):
+        mark = " finding" if each.index == finding else " related" if each.index in related else ""
+        shown = (
+            _sent(each, rows[each.index], at[each.partner], device)
+            if each.sender
+            else _beside(new, rows[each.index], device)
+        )
+        index = f'<text class="index" x="8" y="{rows[each.index] + 4}">{each.index}</text>'
+        parts.append(f'<g class="say{mark}">{element("title", text(_whole(each)))}{index}{shown}</g>')
     label = f"Sequence chart of {len(said)} messages around message {finding}"
     drawn = element(
         "svg", "\n".join(parts), class_="sequence", role="img", aria_label=label,
@@ -50,30 +60,35 @@ def _bar(x: int, begin: int, end: int) -> str:
     return f'<rect class="served" x="{x - 4}" width="8" y="{begin}" height="{end - begin}"/>'
 
 
-def _message(
-    each: Saying, y: int, partner: int, device: int, finding: int, related: Set[int]
-) -> str:
-    mark = " finding" if each.index == finding else " related" if each.index in related else ""
+def _sent(each: Saying, y: int, partner: int, device: int) -> str:
+    """An arrow from who sends it to who gets it."""
     title = each.title if len(each.title) <= LETTERS else f"{each.title[: LETTERS - 1]}..."
-    told = element("title", text(_whole(each)))
-    place = f'<text class="index" x="8" y="{y + 4}">{each.index}</text>'
-    if not each.sender:
-        shape = f'<rect class="beside" x="{device - 5}" y="{y - 5}" width="10" height="10"/>'
-        label = f'<text x="{device - 14}" y="{y + 4}" text-anchor="end">{text(_short(each, title))}</text>'
-        return f'<g class="say{mark}">{told}{place}{shape}{label}</g>'
     begin, end = (partner, device) if each.sender == CLIENT else (device, partner)
     tip = end - 8 if end > begin else end + 8
-    arrow = f'<line class="arrow" x1="{begin}" x2="{tip}" y1="{y}" y2="{y}"/>'
-    head = f'<path class="tip" d="M{end} {y} L{tip} {y - 4} L{tip} {y + 4} z"/>'
     middle = (max(partner, device - ACROSS) + device) // 2
-    label = f'<text x="{middle}" y="{y - 5}" text-anchor="middle">{text(title)}</text>'
-    return f'<g class="say{mark}">{told}{place}{arrow}{head}{label}</g>'
+    return (
+        f'<line class="arrow" x1="{begin}" x2="{tip}" y1="{y}" y2="{y}"/>'
+        f'<path class="tip" d="M{end} {y} L{tip} {y - 4} L{tip} {y + 4} z"/>'
+        f'<text x="{middle}" y="{y - 5}" text-anchor="middle">{text(title)}</text>'
+    )
 
 
-def _short(each: Saying, title: str) -> str:
-    """A sample by the values of its first cells."""
-    values = ", ".join(f"{name}={value}" for name, value in each.fields[:3])
-    return f"{title} {values}" if values else f"{title} {each.partner}"
+def _beside(new: str, y: int, device: int) -> str:
+    """What nobody sends: a sample, or what happened to a connection."""
+    shown = new if len(new) <= WIDE else f"{new[: WIDE - 1]}..."
+    return (
+        f'<rect class="beside" x="{device - 5}" y="{y - 5}" width="10" height="10"/>'
+        f'<text x="{device - 14}" y="{y + 4}" text-anchor="end">{text(shown)}</text>'
+    )
+
+
+def _news(each: Saying, known: dict[str, str]) -> str:
+    """What a sample shows that the one before did not; all of it for the first, nothing new said as such."""
+    if each.sender or not each.fields:
+        return f"{each.title} {each.partner}"
+    new = [f"{name}={value}" for name, value in each.fields if known.get(name) != value]
+    known.update(each.fields)
+    return ", ".join(new) or "as before"
 
 
 def _whole(each: Saying) -> str:

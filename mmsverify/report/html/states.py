@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence, Set
+from itertools import pairwise
 from math import cos, hypot, pi, sin
 
 from mmsverify.incident import DeviceLine, Lane
@@ -26,7 +27,7 @@ def _drawn(lane: Lane, odd: Set[int]) -> str:
     sure = [change for change in lane.changes if change.words and " | " not in change.words]
     steps: Counter[tuple[str, str]] = Counter()
     wrong: set[tuple[str, str]] = set()
-    for one, other in zip(sure, sure[1:], strict=False):
+    for one, other in pairwise(sure):
         if one.words != other.words:
             steps[one.words, other.words] += 1
             if any(one.index < index <= other.index for index in odd):

@@ -25,10 +25,12 @@ MOST_MARKS = 400
 COLOURS = 8
 TELLING = {
     "ROBOT-EXECUTING": "runs", "RUNNING": "runs", "STARTING": "moves", "RESUMING": "moves", "Run": "runs",
-    "RunAuto": "runs", "ROBOT-READY": "ready", "ROBOT-LOADED": "waits", "IDLE": "waits", "ROBOT-IDLE": "waits",
+    "RunAuto": "runs", "ROBOT-READY": "ready", "ROBOT-LOADED": "waits", "IDLE": "waits",
+    "ROBOT-IDLE": "waits",
     "Idle": "waits", "ROBOT-MOTION-PAUSED": "paused", "STOPPED": "paused", "STOPPING": "moves",
     "RESETTING": "moves", "UNRUNNABLE": "bad", "MANUAL-INTERVENTION-REQUIRED": "bad", "OPERATIONAL": "ready",
-    "STATE-CHANGES-ALLOWED": "ready", "none": "waits", "FALSE": "waits", "TRUE": "runs", "NON-EXISTENT": "gone",
+    "STATE-CHANGES-ALLOWED": "ready", "none": "waits", "FALSE": "waits", "TRUE": "runs",
+    "NON-EXISTENT": "gone",
 }  # fmt: skip
 """Colours that mean something; all other words have one by their letters."""
 
@@ -59,18 +61,22 @@ def timeline(line: DeviceLine, findings: Sequence[Numbered]) -> str:
         aria_label=f"Timeline of {line.device}",
     )  # fmt: skip
     about = f"{counted(line.messages, 'message')}, {counted(len(line.gaps), 'gap')}"
-    ends = f'<p class="ends"><span>{clock(line.begin)}</span><span>{about}</span><span>{clock(line.end)}</span></p>'
+    ends = "".join(f"<span>{told}</span>" for told in (clock(line.begin), about, clock(line.end)))
     inside = (
         f'<div class="lane-names">{labels}</div>'
         f'<div class="lanes-window" tabindex="0" role="group" aria-label="Timeline: plus and minus zoom, '
         f'arrows move, 0 shows all">{picture}</div>'
     )
-    return element("div", f'<div class="lanes-box">{inside}</div>{ends}', class_="timeline", data_begin=line.begin,
-                   data_end=line.end) + "\n"  # fmt: skip
+    return element(
+        "div", f'<div class="lanes-box">{inside}</div><p class="ends">{ends}</p>', class_="timeline",
+        data_begin=line.begin, data_end=line.end,
+    ) + "\n"  # fmt: skip
 
 
 def _lane(lane: Lane, line: DeviceLine, span: int) -> str:
-    return "".join(_part(part, line.begin, span) for part in thinned(lane.changes, line.end, span // MOST_PARTS))
+    return "".join(
+        _part(part, line.begin, span) for part in thinned(lane.changes, line.end, span // MOST_PARTS)
+    )
 
 
 def thinned(changes: Sequence[Change], end: int, least: int) -> Iterator[Part]:
@@ -124,7 +130,8 @@ def _colour(part: Part) -> str:
 def _gap(gap: Change, begin: int, span: int, height: int) -> str:
     at = (gap.time - begin) / span
     title = element("title", f"messages missing before {instant(gap.time)}: {text(gap.words)}")
-    return f'<svg class="gap" {_place(at, 0.003)} height="{height}">{title}<rect width="100%" height="{height}"/></svg>'
+    shape = f'<rect width="100%" height="{height}"/>'
+    return f'<svg class="gap" {_place(at, 0.003)} height="{height}">{title}{shape}</svg>'
 
 
 def _marks(line: DeviceLine, findings: Iterable[Numbered], span: int) -> str:
