@@ -53,7 +53,7 @@ class DeviceLine:
 
 @dataclass(frozen=True, slots=True)
 class Saying:
-    """One message in words: who said it to whom, what it is, and what it carries.
+    """One message in words: who said it to whom, what it is, what it is ``about``, and what it carries.
 
     ``sender`` is ``client`` or ``server``, or empty where nobody sends it (a sample, a link event).
     ``partner`` is the association or connection. ``answers`` is the index of the request, where it answers
@@ -68,6 +68,7 @@ class Saying:
     sender: str
     title: str
     octets: bytes
+    about: str = ""
     answers: int | None = None
     fields: Sequence[tuple[str, str]] = ()
     fault: str = ""

@@ -44,7 +44,8 @@ class Reader:
         pdu = mms.decode(message.data)
         fields = [*_shown(event), *flat(pdu.body, ()), *flat(pdu.detail, ("detail",))]
         fields += [("remark", remark) for remark in pdu.remarks]
-        return who.says(_title(event.service, event.kind, event.answer), fields, event.answers)
+        about = ", ".join(event.programs) or event.robot_state
+        return who.says(_title(event.service, event.kind, event.answer), fields, event.answers, about=about)
 
     def _modbus(self, message: TraceMessage) -> Saying:
         names = message.metadata
@@ -59,7 +60,10 @@ class Reader:
         fields = [("transaction", str(adu.transaction)), ("unit", str(adu.unit))]
         if who.sender == "client":
             self._asked[key] = message.index, name
-            return who.says(f"{name} request", fields + _request(adu))
+            asking = _request(adu)
+            return who.says(
+                f"{name} request", fields + asking, about=" ".join(" ".join(f) for f in asking[:2])
+            )
         answers, asked = self._asked.pop(key, (None, name))
         if adu.exception:
             code = str(adu.data[0]) if adu.data else "missing"
@@ -81,11 +85,12 @@ class _Who(NamedTuple):
         fields: Sequence[tuple[str, str]] = (),
         answers: int | None = None,
         *,
+        about: str = "",
         fault: str = "",
     ) -> Saying:
         index, time, data = self.message.index, self.message.time, self.message.data
         who = self.device, self.partner, self.sender
-        return Saying(index, time, *who, title, data, answers, tuple(fields), fault)
+        return Saying(index, time, *who, title, data, about, answers, tuple(fields), fault)
 
 
 def _title(service: str, kind: str, answer: str) -> str:

@@ -49,7 +49,7 @@ ALLOWED = {
 ROOTS = {
     "auditing": ALLOWED.keys() - {"symbolic", "graph", "report"},
     "explaining": ALLOWED.keys() - {"symbolic", "graph", "report", "fleet"},
-    "incidents": ALLOWED.keys() - {"symbolic", "graph", "report", "fleet"},
+    "incidents": ALLOWED.keys() - {"symbolic", "graph", "report", "fleet"} | {"register"},
     "timelines": ALLOWED.keys() - {"symbolic", "graph"} | {"auditing"},
     "checking": ALLOWED.keys() - {"graph", "report"},
     "faults": ALLOWED.keys() - {"audit", "graph", "report"} | {"checking"},

@@ -116,7 +116,8 @@ def _devices(findings: Sequence[Numbered], dossier: Dossier) -> str:
         return ""
     tools = (
         '<p class="tools zoom" hidden><button data-zoom="in">zoom in</button> '
-        '<button data-zoom="out">zoom out</button> <button data-zoom="left">earlier</button> <button data-zoom="right">later</button> '
+        '<button data-zoom="out">zoom out</button> <button data-zoom="left">earlier</button> '
+        '<button data-zoom="right">later</button> '
         '<button data-zoom="all">all</button> <output></output></p>'
     )
     return f'<section id="devices"><h2>What was known, and when</h2>\n{tools}{shown}</section>'

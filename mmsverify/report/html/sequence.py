@@ -62,7 +62,8 @@ def _bar(x: int, begin: int, end: int) -> str:
 
 def _sent(each: Saying, y: int, partner: int, device: int) -> str:
     """An arrow from who sends it to who gets it."""
-    title = each.title if len(each.title) <= LETTERS else f"{each.title[: LETTERS - 1]}..."
+    title = f"{each.title}: {each.about}" if each.about else each.title
+    title = title if len(title) <= LETTERS else f"{title[: LETTERS - 1]}..."
     begin, end = (partner, device) if each.sender == CLIENT else (device, partner)
     tip = end - 8 if end > begin else end + 8
     middle = (max(partner, device - ACROSS) + device) // 2

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections import Counter
 from collections.abc import Sequence, Set
 from itertools import pairwise
@@ -25,12 +26,13 @@ def path(line: DeviceLine, odd: Set[int]) -> str:
 
 def _drawn(lane: Lane, odd: Set[int]) -> str:
     sure = [change for change in lane.changes if change.words and " | " not in change.words]
+    at = sorted(odd)
     steps: Counter[tuple[str, str]] = Counter()
     wrong: set[tuple[str, str]] = set()
     for one, other in pairwise(sure):
         if one.words != other.words:
             steps[one.words, other.words] += 1
-            if any(one.index < index <= other.index for index in odd):
+            if bisect_right(at, one.index) < bisect_right(at, other.index):
                 wrong.add((one.words, other.words))
     states = list(dict.fromkeys(change.words for change in sure))[:MOST]
     if len(states) < 2:
