@@ -7,15 +7,24 @@ from collections import Counter
 from collections.abc import Sequence, Set
 from itertools import pairwise
 from math import cos, hypot, pi, sin
+from typing import NamedTuple
 
 from mmsverify.incident import DeviceLine, Lane
 from mmsverify.report.html.text import element, text
 
 STATES = ("robot state", "mode")
 """The lanes of which the path is drawn."""
-RADIUS, ACROSS, DOWN = 150, 118, 15
-"""Pixels: of the circle, and half a box."""
+APART, DOWN = 24, 15
+"""Pixels: of the circle's radius for each state, and half the height of a box."""
 MOST = 14
+
+
+class Box(NamedTuple):
+    """The middle of a state's box, and half its width."""
+
+    x: float
+    y: float
+    half: float
 
 
 def path(line: DeviceLine, odd: Set[int]) -> str:
@@ -44,8 +53,9 @@ def _drawn(lane: Lane, odd: Set[int]) -> str:
         if one in places and other in places
     ]
     last = sure[-1].words
-    boxes = [_box(name, *places[name], last=name == last) for name in states]
-    width, height = 2 * (RADIUS + ACROSS) + 60, 2 * (RADIUS + DOWN) + 30
+    boxes = [_box(name, places[name], last=name == last) for name in states]
+    width = 2 * round(max(abs(x) + half for x, _, half in places.values()) + 30)
+    height = 2 * round(max(abs(y) for _, y, _ in places.values()) + DOWN + 30)
     return element(
         "svg", "\n".join([*arrows, *boxes]), class_="states", role="img", width=width, height=height,
         viewBox=f"{-width // 2} {-height // 2} {width} {height}",
@@ -53,23 +63,26 @@ def _drawn(lane: Lane, odd: Set[int]) -> str:
     )  # fmt: skip
 
 
-def _places(states: Sequence[str]) -> dict[str, tuple[float, float]]:
-    turn = 2 * pi / len(states)
-    return {name: (1.25 * RADIUS * sin(n * turn), -RADIUS * cos(n * turn)) for n, name in enumerate(states)}
+def _places(states: Sequence[str]) -> dict[str, Box]:
+    """The boxes on an ellipse, the first at its top, in the order in which they were first known."""
+    turn, radius = 2 * pi / len(states), 60 + APART * len(states) / 2
+    return {
+        name: Box(1.7 * radius * sin(n * turn), -radius * cos(n * turn), 3.6 * len(name) + 12)
+        for n, name in enumerate(states)
+    }
 
 
-def _box(name: str, x: float, y: float, *, last: bool) -> str:
-    half = min(ACROSS, 4 * len(name) + 14)
+def _box(name: str, box: Box, *, last: bool) -> str:
     return (
-        f'<g class="state{" last" if last else ""}"><rect x="{x - half:.0f}" y="{y - DOWN:.0f}" '
-        f'width="{2 * half:.0f}" height="{2 * DOWN}" rx="7"/>'
-        f'<text x="{x:.0f}" y="{y + 4:.0f}" text-anchor="middle">{text(name)}</text></g>'
+        f'<g class="state{" last" if last else ""}"><rect x="{box.x - box.half:.0f}" y="{box.y - DOWN:.0f}" '
+        f'width="{2 * box.half:.0f}" height="{2 * DOWN}" rx="7"/>'
+        f'<text x="{box.x:.0f}" y="{box.y + 4:.0f}" text-anchor="middle">{text(name)}</text></g>'
     )
 
 
-def _arrow(one: tuple[float, float], other: tuple[float, float], count: int, *, odd: bool) -> str:
+def _arrow(one: Box, other: Box, count: int, *, odd: bool) -> str:
     """Bent to its left, so that there and back are two arrows."""
-    (x1, y1), (x2, y2) = one, other
+    (x1, y1, _), (x2, y2, _) = one, other
     long = hypot(x2 - x1, y2 - y1)
     aside, along = ((y1 - y2) / long, (x2 - x1) / long), ((x2 - x1) / long, (y2 - y1) / long)
     bend = 26 + long / 12
@@ -86,11 +99,11 @@ def _arrow(one: tuple[float, float], other: tuple[float, float], count: int, *, 
     )
 
 
-def _edge(box: tuple[float, float], towards: tuple[float, float]) -> tuple[float, float]:
+def _edge(box: Box, towards: tuple[float, float]) -> tuple[float, float]:
     """Where the way out of a box leaves it."""
-    dx, dy = towards[0] - box[0], towards[1] - box[1]
-    scale = min(70 / abs(dx) if dx else 9, (DOWN + 3) / abs(dy) if dy else 9, 1)
-    return box[0] + dx * scale, box[1] + dy * scale
+    dx, dy = towards[0] - box.x, towards[1] - box.y
+    scale = min((box.half + 3) / abs(dx) if dx else 9, (DOWN + 3) / abs(dy) if dy else 9, 1)
+    return box.x + dx * scale, box.y + dy * scale
 
 
 def _head(end: tuple[float, float], behind: tuple[float, float]) -> str:
