@@ -6,6 +6,7 @@ The recording is replayed once more, watched, and read once more for what was sa
 from __future__ import annotations
 
 import hashlib
+import re
 from bisect import bisect_left
 from collections import defaultdict, deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -24,7 +25,7 @@ from mmsverify.incident import Change, DeviceLine, Dossier, Incident, Lane, Orig
 from mmsverify.model.load import find
 from mmsverify.profiles import for_recording, within_framework
 from mmsverify.register.statements import read_statements
-from mmsverify.resources import models_dir
+from mmsverify.resources import models_dir, readings_page
 from mmsverify.results import Audit, Finding
 
 __all__ = ["dossier", "reconstruct", "timeline"]
@@ -34,6 +35,8 @@ BEFORE, AFTER = 8, 3
 MOST_WINDOWS = 400
 """Findings of one recording whose surroundings are kept."""
 BLOCK = 1 << 20
+_READING = re.compile(r"^\| ([A-Z]+-[A-Z0-9-]+) \| (.+) \|$", re.MULTILINE)
+"""A row of the page of readings: an id, and how it is read."""
 Kept = tuple[str, int, TraceMessage]
 """A message with its device, and the number that it has among that device's messages."""
 
@@ -88,9 +91,9 @@ def dossier(
 
 
 def _statements(audit: Audit, models: Sequence[str]) -> dict[str, str]:
-    """What the statements say that the findings cite."""
-    cited = {each for found in audit.findings for each in found.clauses}
-    said: dict[str, str] = {}
+    """What the statements and readings say that the findings cite."""
+    cited = {each for found in audit.findings for each in (*found.clauses, *found.readings)}
+    said = dict(_READING.findall(readings_page().read_text(encoding="utf-8")))
     for model in models:
         said |= {each.id: each.says for each in read_statements(find(model, models_dir())).values()}
     return {each: said[each] for each in sorted(cited & said.keys())}

@@ -28,6 +28,11 @@ def traces_dir() -> Path:
     return _folder("traces")
 
 
+def readings_page() -> Path:
+    """The page on which the project's readings and assumptions are written down."""
+    return _folder("docs") / "readings.md"
+
+
 def _folder(name: str) -> Path:
     for place in (_PACKAGE / "data" / name, _PACKAGE.parent / name):
         if place.is_dir():

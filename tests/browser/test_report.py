@@ -172,6 +172,15 @@ def test_without_scripts_everything_can_be_read(all_samples: tuple[Path, Audit],
     context.close()
 
 
+def test_a_printed_page_has_no_tools(all_samples: tuple[Path, Audit], watched: Watched) -> None:
+    page = watched.open(all_samples[0])
+    assert page.locator("form.filters").is_visible()
+    page.emulate_media(media="print")
+    assert page.locator("form.filters").is_hidden()
+    assert page.locator(".zoom").is_hidden()
+    assert len(page.pdf()) > 10_000
+
+
 def test_names_out_of_a_recording_are_never_more_than_names(watched: Watched, tmp_path: Path) -> None:
     path, out = tmp_path / "hostile.mcap", tmp_path / "report.html"
     with TraceWriter(path) as trace:

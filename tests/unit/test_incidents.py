@@ -13,7 +13,7 @@ from mmsverify.auditing import audit_traces
 from mmsverify.formats.mcap import TraceWriter, read_trace
 from mmsverify.formats.trace import Channel
 from mmsverify.incident import Incident, Lane
-from mmsverify.incidents import AFTER, BEFORE, Watched, reconstruct, timeline
+from mmsverify.incidents import AFTER, BEFORE, Watched, dossier, reconstruct, timeline
 from mmsverify.profiles import for_recording, within_framework
 from mmsverify.resources import traces_dir
 
@@ -139,6 +139,16 @@ def test_of_a_recording_that_is_cut_off_what_could_be_read_is_shown(tmp_path: Pa
     path.write_bytes(octets[: len(octets) // 2])
     (line,) = timeline(path)
     assert 0 < line.messages < 100
+
+
+def test_a_dossier_tells_what_the_cited_statements_and_readings_say() -> None:
+    audit = audit_traces(SAMPLES, profile=None, model=None)
+    beside = dossier(audit)
+    cited = {each for found in audit.findings for each in (*found.clauses, *found.readings)}
+    assert cited == beside.statements.keys()
+    assert all(beside.statements.values())
+    assert beside.incidents.keys() == {entry.path for entry in audit.inputs}
+    assert dict(beside.judged)["model"] == "mms-robot, modbus-signals, vr-template"
 
 
 def test_values_are_told_by_their_paths_and_not_without_end() -> None:
