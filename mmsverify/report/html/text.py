@@ -7,7 +7,7 @@ from html import escape
 
 from mmsverify.report.wording import instant, printable
 
-LONGEST = 400
+LONGEST = 2000
 """Characters of one name or value that are shown: a name may fill a whole message."""
 
 
