@@ -1,0 +1,33 @@
+"""What MkDocs is told beside ``mkdocs.yml``: pages that are made, and that none loads anything from elsewhere."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from mkdocs.config.defaults import MkDocsConfig
+from mkdocs.exceptions import PluginError
+from mkdocs.structure.files import File, Files
+
+from mmsverify.commands import reference
+from mmsverify.manual import drawings, pages
+
+LOADED = re.compile(
+    r"<(?:script|img|iframe|source)\b[^>]*?\bsrc=[\"']?(https?:)?//|<link\b[^>]*?\bhref=[\"']?(https?:)?//"
+)
+
+
+def on_files(files: Files, config: MkDocsConfig) -> Files:
+    """Add the pages that are made from the models, tables and commands."""
+    made = {**pages(), "reference/cli.md": reference.page(), **drawings(files.src_uris)}
+    for path, text in made.items():
+        files.append(File.generated(config, path, content=text))
+    return files
+
+
+def on_post_build(config: MkDocsConfig) -> None:
+    """Refuse a site that cannot be read without a network: plants have none."""
+    built = Path(config.site_dir).rglob("*.html")
+    loading = [str(page) for page in built if LOADED.search(page.read_text(encoding="utf-8"))]
+    if loading:
+        raise PluginError(f"these pages load something from another host: {', '.join(loading)}")
