@@ -1,4 +1,4 @@
-"""What MkDocs is told beside ``mkdocs.yml``: pages that are made, and that none loads anything from elsewhere."""
+"""What MkDocs is told beside ``mkdocs.yml``: pages that are made, and that none loads from elsewhere."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """The pages of the documentation that are made from the models and tables, as Markdown and SVG.
 
 Nothing of them is kept: the site makes them when it is built, so that none can be stale. What a page says is
-what ``check`` and ``audit`` read: the rows, claims and repairs of the models, the clause registers, the rules.
+what ``check`` and ``audit`` read: rows, claims and repairs of the models, the clause registers, the rules.
 """
 
 from __future__ import annotations

@@ -21,7 +21,8 @@ def _parts(register: Register) -> Iterator[str]:
     yield f"# Clauses of {register.model}"
     yield (
         f"{text(register.standard)}: {counts['statements']} statements in words of our own, "
-        f"{counts['encoded']} encoded by rows, properties and rules, {counts['reasoned']} with a reason why not, "
+        f"{counts['encoded']} encoded by rows, properties and rules, "
+        f"{counts['reasoned']} with a reason why not, "
         f"{counts['exercised']} exercised by tests or samples. "
         f"`mmsverify clauses {register.model} --clause ID` tells one in full."
     )

@@ -1,4 +1,4 @@
-"""The page of one model: its diagram, its variables, every row, every property, what differs from the text."""
+"""The page of one model: its diagram, its variables, every row and property, what differs from the text."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ PHASES = {
 """The rows of a page, in this order, by the phase of their events."""
 
 ORDER = (
-    "Of several rows under one name the first whose guard holds is taken: each lists, and cites, only what it "
-    "asks beyond not being answered by those above it. Updates are made together and read the state before; of "
-    "two that touch one cell the later one counts."
+    "Of several rows under one name the first whose guard holds is taken: each lists, and cites, only what "
+    "it asks beyond not being answered by those above it. Updates are made together and read the state "
+    "before; of two that touch one cell the later one counts."
 )
 
 
@@ -119,7 +119,7 @@ def _claims(model: ModelData, link: Link) -> Iterator[str]:
 def _repairs(model: ModelData, link: Link) -> Iterator[str]:
     if model.repairs:
         yield "## Where it differs from the text"
-        yield "Everything else is as written. [Readings](../../readings.md) explains `RP-`, `VR-`, `MR-`, `B-`."
+        yield "Everything else is as written. [Readings](../../readings.md) explains the readings."
         yield table(
             ("declaration", "because", "mends"),
             ((code(name), text(r.because), link(r.mends)) for name, r in model.repairs.items()),

@@ -1,6 +1,6 @@
 """What the consoles on the pages show, and what the commands print today.
 
-A block ``console`` is a run of commands, each after ``$``, with what they print; ``...`` stands for lines left
+A block ``console`` is a run of commands, each after ``$``, with what they print; ``...`` is lines left
 out. A block with a ``title`` is a file that the commands find beside them, or what is ``added to`` one; the
 samples are in ``traces``. A block after a comment ``<!-- not run: why -->`` is not run.
 ``python tests/docs/consoles.py`` writes what has changed into the pages.
@@ -102,7 +102,7 @@ def run(line: str, folder: Path) -> list[str]:
     """What a command prints on stdout and stderr; a plain ``mmsverify`` needs no process of its own."""
     plain = line.startswith("mmsverify ") and not set(line) & set("|><;&$*")
     printed = called(shlex.split(line)[1:], folder) if plain else in_shell(line, folder)
-    return [text.rstrip() for text in printed.splitlines()]
+    return [text.replace(f"{folder}/", "").rstrip() for text in printed.splitlines()]
 
 
 def called(arguments: Sequence[str], folder: Path) -> str:

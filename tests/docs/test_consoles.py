@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
-from consoles import DOCS, matches, replayed, with_consoles
+from consoles import DOCS, fences, matches, replayed, with_consoles
 
 FAST = DOCS / "tutorial"
 """What a newcomer types first is tried with every run of the fast set; the rest takes longer."""
@@ -29,6 +29,12 @@ def test_a_console_shows_what_its_commands_print(page: Path, tmp_path: Path) -> 
         if not command.holds
     ]
     assert stale == [], "write it anew: python tests/docs/consoles.py"
+
+
+def test_no_console_escapes_its_test() -> None:
+    pages = {page: page.read_text(encoding="utf-8").count("```console") for page in DOCS.rglob("*.md")}
+    found = {page: sum(fence["kind"] == "console" for fence in fences(page)) for page in pages}
+    assert found == pages
 
 
 @pytest.mark.parametrize(
