@@ -25,6 +25,11 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     return files
 
 
+def on_page_content(html: str, **_given: object) -> str:
+    """Show the names of classes in docstrings without the role that marks them."""
+    return html.replace(":class:<code>", "<code>")
+
+
 def on_post_build(config: MkDocsConfig) -> None:
     """Refuse a site that cannot be read without a network: plants have none."""
     built = Path(config.site_dir).rglob("*.html")

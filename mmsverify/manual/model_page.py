@@ -49,7 +49,8 @@ def _head(model: ModelData) -> Iterator[str]:
         f"This page is made from the model, variant `{model.variant}`: {len(model.rows)} rows, "
         f"{len(model.claims)} properties. `mmsverify check {model.name}` proves them."
     )
-    yield f"![State diagrams of {model.name}](../../{model.name}.svg)"
+    drawn = f"../../{model.name}.svg"
+    yield f"[![State diagrams of {model.name}]({drawn})]({drawn})"
     yield "The diagrams show which rows lead from one value to another."
 
 

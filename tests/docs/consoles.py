@@ -29,7 +29,7 @@ FENCE = re.compile(
     r"(?P<text>.*?)^```$",
     re.MULTILINE | re.DOTALL,
 )
-SECONDS = re.compile(r"\(\d+\.\d s\)|(?<=  )\d+\.\d\d$")
+SECONDS = re.compile(r"\(\d+\.\d s\)|(?<=  )\d+\.\d\d$|(?<=\"seconds\": )[\d.]+")
 """How long something took: what differs from run to run."""
 LEFT_OUT = "..."
 ADDED = "added to "
