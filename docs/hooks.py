@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 from mkdocs.config.defaults import MkDocsConfig
@@ -11,10 +10,7 @@ from mkdocs.structure.files import File, Files
 
 from mmsverify.commands import reference
 from mmsverify.manual import drawings, pages
-
-LOADED = re.compile(
-    r"<(?:script|img|iframe|source)\b[^>]*?\bsrc=[\"']?(https?:)?//|<link\b[^>]*?\bhref=[\"']?(https?:)?//"
-)
+from mmsverify.manual.standalone import loaded_from_elsewhere
 
 
 def on_files(files: Files, config: MkDocsConfig) -> Files:
@@ -32,7 +28,6 @@ def on_page_content(html: str, **_given: object) -> str:
 
 def on_post_build(config: MkDocsConfig) -> None:
     """Refuse a site that cannot be read without a network: plants have none."""
-    built = Path(config.site_dir).rglob("*.html")
-    loading = [str(page) for page in built if LOADED.search(page.read_text(encoding="utf-8"))]
-    if loading:
-        raise PluginError(f"these pages load something from another host: {', '.join(loading)}")
+    for page in Path(config.site_dir).rglob("*.html"):
+        for address in loaded_from_elsewhere(page.read_text(encoding="utf-8")):
+            raise PluginError(f"{page} loads {address}: no page may need a network")

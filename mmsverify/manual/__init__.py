@@ -36,7 +36,9 @@ def drawings(kept: Mapping[str, object]) -> dict[str, str]:
 
 def _pages() -> Iterator[tuple[str, str]]:
     for model in names(models_dir()):
-        yield f"reference/models/{model}.md", model_page.page(model, REGISTERS.get(model, model))
+        beside = REGISTERS.get(model, model)
+        yield f"reference/models/{model}.md", model_page.page(model, beside)
+        yield f"reference/models/{model}-as-written.md", model_page.as_written(model, beside)
     for register in clause_registers():
         yield f"reference/clauses/{register.model}.md", clause_page.page(register)
     yield "reference/rules.md", rules_page.page()

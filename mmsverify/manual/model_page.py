@@ -10,10 +10,12 @@ from mmsverify.manual.markdown import cited, code, formula, stacked, table, text
 from mmsverify.manual.row_table import Link, row_table
 from mmsverify.model import Clause, ModelData, load
 from mmsverify.model.load import load_variants
-from mmsverify.model.rows import Row
+from mmsverify.model.rows import Claim, Row
 from mmsverify.model.show import shown
 from mmsverify.model.sorts import EnumSort, Sort
 from mmsverify.resources import models_dir
+
+TEXT = "as-written"
 
 PHASES = {
     "response": "The controller answers",
@@ -34,8 +36,25 @@ def page(name: str, register: str) -> str:
     """The page of a model by name; its clauses stand on the page of ``register``."""
     model = load(name, models_dir())
     link = partial(_cited, page=f"../clauses/{register}.md")
-    parts = [*_head(model), *_state(model), *_rows(model, link), *_claims(model, link)]
-    return "\n\n".join([*parts, *_repairs(model, link)]) + "\n"
+    rows, claims = _rows(model.rows, link), _claims(model.claims, link)
+    return "\n\n".join([*_head(model), *_state(model), *rows, *claims, *_repairs(model, link)]) + "\n"
+
+
+def as_written(name: str, register: str) -> str:
+    """The page of what the repaired reading of a model mends: the rows and properties of the text itself."""
+    mended = load(name, models_dir()).repairs
+    model = load(name, models_dir(), TEXT)
+    link = partial(_cited, page=f"../clauses/{register}.md")
+    rows = _rows([row for row in model.rows if row.name in mended], link)
+    claims = _claims([claim for claim in model.claims if claim.name in mended], link)
+    return "\n\n".join([f"# {name} as written", _as_written(name), *rows, *claims]) + "\n"
+
+
+def _as_written(name: str) -> str:
+    return (
+        f"What [the repaired reading]({name}.md#where-it-differs-from-the-text) mends, as the text has it. "
+        f"Everything else is as in {name}. `mmsverify check {name} --variant {TEXT}` shows what it breaks."
+    )
 
 
 def _cited(clause: Clause, *, page: str) -> str:
@@ -84,11 +103,11 @@ def _meaning(doc: str, rigid: bool) -> str:
     return text("; ".join(part for part in (doc, "never changes" if rigid else "") if part))
 
 
-def _rows(model: ModelData, link: Link) -> Iterator[str]:
+def _rows(listed: Sequence[Row], link: Link) -> Iterator[str]:
     yield "## Rows"
     yield ORDER
     for phase, title in PHASES.items():
-        rows = [row for row in model.rows if row.on.phase == phase]
+        rows = [row for row in listed if row.on.phase == phase]
         if rows:
             yield f"### {title}"
         for name in dict.fromkeys(row.name for row in rows):
@@ -100,7 +119,9 @@ def _named(rows: Sequence[Row], link: Link) -> Iterator[str]:
     yield row_table(rows, link)
 
 
-def _claims(model: ModelData, link: Link) -> Iterator[str]:
+def _claims(claims: Sequence[Claim], link: Link) -> Iterator[str]:
+    if not claims:
+        return
     yield "## Properties"
     yield "`always` holds in every reachable state, `step` of every step, `sometimes` of some state or step."
     yield table(
@@ -112,7 +133,7 @@ def _claims(model: ModelData, link: Link) -> Iterator[str]:
                 stacked(filter(None, (text(c.says), formula(shown(c.formula))))),
                 link(c.clause),
             )
-            for c in model.claims
+            for c in claims
         ),
     )
 

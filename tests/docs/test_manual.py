@@ -11,6 +11,7 @@ from mmsverify.commands import reference
 from mmsverify.manual import drawings, pages
 from mmsverify.manual.markdown import LONG, anchor, formula, table, text
 from mmsverify.manual.row_table import assigned, implied
+from mmsverify.manual.standalone import loaded_from_elsewhere
 from mmsverify.model import (
     Each,
     Model,
@@ -49,6 +50,15 @@ def test_every_row_and_property_and_repair_of_a_model_is_on_its_page(model: str)
     missing += [c.title for c in data.claims if f"| <code>{text(c.title)}</code> |" not in page]
     missing += [name for name in data.repairs if f"| <code>{text(name)}</code> |" not in page]
     assert missing == []
+
+
+@pytest.mark.parametrize("model", MODELS)
+def test_every_row_that_is_mended_is_on_the_page_of_the_text(model: str) -> None:
+    page, mended = made()[f"reference/models/{model}-as-written.md"], loaded(model).repairs
+    told = {
+        line.removeprefix("#### ").replace(" ", "_") for line in page.splitlines() if line.startswith("#### ")
+    }
+    assert told == {row.name for row in load(model, models_dir(), "as-written").rows if row.name in mended}
 
 
 @pytest.mark.parametrize("model", MODELS)
@@ -94,6 +104,18 @@ def test_every_command_and_option_is_on_the_page_of_the_command_line() -> None:
 def test_a_drawing_that_is_kept_is_not_made_again() -> None:
     kept = {f"{model}.svg" for model in MODELS if model != "vr-tasks"}
     assert list(drawings(dict.fromkeys(kept))) == ["vr-tasks.svg"]
+
+
+@pytest.mark.parametrize(
+    ("html", "found"),
+    [
+        ('<script async src="https://host/x.js"></script>', ["https://host/x.js"]),
+        ("<link rel=stylesheet href=//host/x.css>", ["//host/x.css"]),
+        ('<a href="https://host/">a link</a><img src="x.svg"><script src="../x.js"></script>', []),
+    ],
+)
+def test_what_a_page_loads_from_elsewhere_is_found_and_a_link_is_none(html: str, found: list[str]) -> None:
+    assert loaded_from_elsewhere(html) == found
 
 
 def test_names_cannot_break_a_page() -> None:
