@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 from mmsverify.manual.markdown import anchor, code, stacked, table, text
+from mmsverify.report.wording import counted
 from mmsverify.results import Entry, Register
 
 SHOWN = 3
@@ -37,12 +38,15 @@ def _row(entry: Entry) -> tuple[str, ...]:
     encoded = [f"{encoding.kind} {encoding.name}" for encoding in entry.encoded]
     if statement.reason and not encoded:
         encoded = [f"not checked ({statement.reason}): {statement.because}"]
-    return (
-        name,
-        text(statement.says),
-        _first(encoded),
-        _first([exercise.name for exercise in entry.exercised]),
-    )
+    return name, text(statement.says), _first(encoded), text(", ".join(_exercised(entry)))
+
+
+def _exercised(entry: Entry) -> Iterator[str]:
+    """The samples by name, and how many tests."""
+    yield from (e.name.removesuffix(".mcap") for e in entry.exercised if e.by != TEST)
+    tests = sum(exercise.by == TEST for exercise in entry.exercised)
+    if tests:
+        yield counted(tests, "test")
 
 
 def _first(names: Sequence[str]) -> str:

@@ -55,7 +55,7 @@ ROOTS = {
     "faults": ALLOWED.keys() - {"audit", "graph", "report"} | {"checking"},
     "diagrams": ALLOWED.keys() - {"audit", "report"},
     "register": ALLOWED.keys() - {"symbolic", "graph", "report"},
-    "manual": ALLOWED.keys() - {"symbolic", "graph", "report"} | {"diagrams", "register"},
+    "manual": ALLOWED.keys() - {"symbolic", "graph"} | {"diagrams", "register"},
 }
 COMMAND_LINE = {"cli", "commands", "__main__"}
 
