@@ -17,7 +17,8 @@ BESIDE = {"mms-robot": RULES, "vr-template": VR_RULES, "modbus-signals": MODBUS_
 HEAD = """# Rules
 
 The name of the rule is the last word in the first line of a finding. Each rule rests on statements of the
-clause registers; words in braces are filled in."""
+clause registers; words in braces are filled in. `input.unreadable` is of a file that cannot be read;
+`error.left` says that a controller left an error state without ResetErr (VR-11)."""
 
 
 def page() -> str:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
+from pathlib import Path
 
 import pytest
 
@@ -31,7 +33,11 @@ from mmsverify.model.show import shown
 from mmsverify.register import clause_registers
 from mmsverify.resources import models_dir
 
+ROOT = Path(__file__).parents[2]
+RULE = re.compile(r'"((?!mmsverify)[a-z]+(?:-[a-z]+)*\.(?!txt)[a-z]+(?:-[a-z]+)*)"')
+"""How the code names a rule."""
 MODELS = names(models_dir())
+JUDGED = ("mms-robot", "vr-template", "modbus-signals")
 made = cache(pages)
 
 
@@ -99,6 +105,14 @@ def test_every_command_and_option_is_on_the_page_of_the_command_line() -> None:
         "--annotate OUT.mcap",
     ]
     assert [name for name in named if name not in page] == []
+
+
+def test_every_rule_that_a_finding_may_name_is_on_the_page_of_rules() -> None:
+    files = [*ROOT.glob("mmsverify/audit/**/*.py"), *ROOT.glob("mmsverify/fleet/*.py")]
+    named = {rule for path in files for rule in RULE.findall(path.read_text(encoding="utf-8"))}
+    named |= {c.rule for model in JUDGED for row in loaded(model).rows for c in row.guard if c.rule}
+    page = made()["reference/rules.md"]
+    assert sorted(rule for rule in named if f">{rule}<" not in page and f"`{rule}`" not in page) == []
 
 
 def test_a_drawing_that_is_kept_is_not_made_again() -> None:
