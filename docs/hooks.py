@@ -7,9 +7,11 @@ from pathlib import Path
 from mkdocs.config.defaults import MkDocsConfig
 from mkdocs.exceptions import PluginError
 from mkdocs.structure.files import File, Files
+from mkdocs.structure.pages import Page
 
 from mmsverify.commands import reference
 from mmsverify.manual import drawings, pages
+from mmsverify.manual.markdown import anchored
 from mmsverify.manual.standalone import loaded_from_elsewhere
 
 
@@ -19,6 +21,11 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     for path, text in made.items():
         files.append(File.generated(config, path, content=text))
     return files
+
+
+def on_page_markdown(markdown: str, page: Page, **_given: object) -> str:
+    """Make places to link to on the page of readings."""
+    return anchored(markdown) if page.file.src_uri == "readings.md" else markdown
 
 
 def on_page_content(html: str, **_given: object) -> str:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from html import escape
+
+_READING = re.compile(r"^\| ((?:[A-Z]{1,2}-[A-Z0-9-]+(?:, )?)+) \|", re.MULTILINE)
 
 LONG = 220
 """Letters of a formula after which it is folded away."""
@@ -44,17 +47,24 @@ def stacked(parts: Iterable[str]) -> str:
     return "<br>".join(parts)
 
 
-def cited(ids: Iterable[str], page: str) -> str:
-    """Clause ids, each a link to its statement in the register at ``page``; readings to theirs."""
-    return " ".join(_link(name, page) for name in ids)
+def cited(ids: Iterable[str], page: str, readings: str) -> str:
+    """Ids of statements as links to the register at ``page``, those of readings as links to theirs."""
+    return " ".join(f"[{name}]({page if _is_statement(name) else readings}#{anchor(name)})" for name in ids)
 
 
-def _link(name: str, page: str) -> str:
-    if name.startswith(("R-", "V-", "M-")):
-        return f"[{name}]({page}#{anchor(name)})"
-    return name
+def _is_statement(name: str) -> bool:
+    return name.startswith(("R-", "V-", "M-"))
+
+
+def anchored(page: str) -> str:
+    """The page of readings with a place to link to for each id in the first cell of a row."""
+    return _READING.sub(lambda row: f"| {''.join(map(_place, row[1].split(', ')))}{row[1]} |", page)
+
+
+def _place(name: str) -> str:
+    return f'<a id="{anchor(name)}"></a>'
 
 
 def anchor(statement: str) -> str:
-    """Where a statement stands on the page of its register."""
+    """Where a statement or a reading stands on its page."""
     return statement.lower()

@@ -58,7 +58,7 @@ def _as_written(name: str) -> str:
 
 
 def _cited(clause: Clause, *, page: str) -> str:
-    return cited((*clause.ids, *clause.readings), page)
+    return cited((*clause.ids, *clause.readings), page, "../../readings.md")
 
 
 def _head(model: ModelData) -> Iterator[str]:

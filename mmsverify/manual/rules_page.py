@@ -46,4 +46,4 @@ def _beside(model: str) -> Mapping[str, tuple[str, ...]]:
 
 def _told(model: str, rule: str, severity: str, says: str, clause: Clause) -> tuple[str, ...]:
     ids = (*clause.ids, *clause.readings)
-    return code(rule), severity, text(says), cited(ids, f"clauses/{model}.md")
+    return code(rule), severity, text(says), cited(ids, f"clauses/{model}.md", "../readings.md")

@@ -11,7 +11,7 @@ import pytest
 from mmsverify.cli import app
 from mmsverify.commands import reference
 from mmsverify.manual import drawings, pages
-from mmsverify.manual.markdown import LONG, anchor, formula, table, text
+from mmsverify.manual.markdown import LONG, anchor, anchored, formula, table, text
 from mmsverify.manual.row_table import assigned, implied
 from mmsverify.manual.standalone import loaded_from_elsewhere
 from mmsverify.model import (
@@ -130,6 +130,13 @@ def test_a_drawing_that_is_kept_is_not_made_again() -> None:
 )
 def test_what_a_page_loads_from_elsewhere_is_found_and_a_link_is_none(html: str, found: list[str]) -> None:
     assert loaded_from_elsewhere(html) == found
+
+
+def test_every_reading_that_is_cited_has_a_place_on_its_page() -> None:
+    page = anchored((ROOT / "docs" / "readings.md").read_text(encoding="utf-8"))
+    cited = {link for text in made().values() for link in re.findall(r"readings\.md#([\w-]+)", text)}
+    assert sorted(name for name in cited if f'<a id="{name}"></a>' not in page) == []
+    assert len(cited) > 40
 
 
 def test_names_cannot_break_a_page() -> None:
