@@ -10,6 +10,7 @@ import re
 from bisect import bisect_left
 from collections import defaultdict, deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
@@ -79,11 +80,16 @@ def dossier(
     model: str | None = None,
     variant: str = "repaired",
 ) -> Dossier:
-    """What a report shows beside an audit, which was made with this profile, model and variant."""
-    incidents = {
-        entry.path: reconstruct(entry.path, audit.findings, profile=profile, model=model, variant=variant)
-        for entry in audit.inputs
-    }
+    """What a report shows beside an audit, which was made with this profile, model and variant.
+
+    Of a recording that cannot be read any more there is nothing to show; its findings stand.
+    """
+    incidents: dict[str, Incident] = {}
+    for entry in audit.inputs:
+        with suppress(InputError):
+            incidents[entry.path] = reconstruct(
+                entry.path, audit.findings, profile=profile, model=model, variant=variant
+            )
     models = sorted({device.model for each in incidents.values() for device in each.devices})
     judged = [("model", ", ".join(models)), ("variant", variant)]
     judged.append(("profile", str(profile) if profile else "what each recording says of itself"))

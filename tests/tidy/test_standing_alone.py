@@ -40,8 +40,8 @@ def test_ci_runs_the_test_command_of_the_readme(command: str) -> None:
 def test_everything_the_wheel_promises_to_carry_is_there() -> None:
     project = tomllib.loads(text_of("pyproject.toml"))
     wheel = project["tool"]["hatch"]["build"]["targets"]["wheel"]
-    folders = {path.parts[0] for path in tracked()}
-    assert set(wheel["force-include"]) - folders == set()
+    there = {path.parts[0] for path in tracked()} | {path.as_posix() for path in tracked()}
+    assert set(wheel["force-include"]) - there == set()
     assert (ROOT / project["project"]["readme"]).is_file()
 
 

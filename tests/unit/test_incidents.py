@@ -151,6 +151,14 @@ def test_a_dossier_tells_what_the_cited_statements_and_readings_say() -> None:
     assert dict(beside.judged)["model"] == "mms-robot, modbus-signals, vr-template"
 
 
+def test_of_a_recording_that_is_gone_the_findings_stand(tmp_path: Path) -> None:
+    path = tmp_path / "x.mcap"
+    path.write_bytes(sample("faulty-select").read_bytes())
+    audit = audit_traces([path], profile=None, model=None)
+    path.unlink()
+    assert dossier(audit).incidents == {}
+
+
 def test_values_are_told_by_their_paths_and_not_without_end() -> None:
     deep: list[object] = []
     inner = deep
