@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-from mmsverify.audit.parts import SIGNALS
+from mmsverify.audit.parts import FRAMEWORK, ROBOT, SIGNALS
 from mmsverify.audit.replay import Replay
 from mmsverify.audit.saying import Reader
 from mmsverify.errors import InputError
@@ -29,7 +29,7 @@ from mmsverify.register.statements import read_statements
 from mmsverify.resources import models_dir, readings_page
 from mmsverify.results import Audit, Finding
 
-__all__ = ["dossier", "reconstruct", "timeline"]
+__all__ = ["dossier", "reconstruct", "statements", "timeline"]
 
 BEFORE, AFTER = 8, 3
 """So many messages of the device before that of a finding, and after it, are shown."""
@@ -93,11 +93,11 @@ def dossier(
     models = sorted({device.model for each in incidents.values() for device in each.devices})
     judged = [("model", ", ".join(models)), ("variant", variant)]
     judged.append(("profile", str(profile) if profile else "what each recording says of itself"))
-    return Dossier(incidents, _statements(audit, models), judged)
+    return Dossier(incidents, statements(audit, models), judged)
 
 
-def _statements(audit: Audit, models: Sequence[str]) -> dict[str, str]:
-    """What the statements and readings say that the findings cite."""
+def statements(audit: Audit, models: Sequence[str] = (ROBOT, FRAMEWORK, SIGNALS)) -> dict[str, str]:
+    """What the statements of these models, and readings, say that the findings cite, by id."""
     cited = {each for found in audit.findings for each in (*found.clauses, *found.readings)}
     said = dict(_READING.findall(readings_page().read_text(encoding="utf-8")))
     for model in models:

@@ -53,11 +53,23 @@ class AuditedInput:
 
 
 @dataclass(frozen=True, slots=True)
+class Withheld:
+    """Findings of one rule and device that are counted and not told one by one: ``count`` of a severity."""
+
+    path: str
+    vmd: str | None
+    rule: str
+    severity: Severity
+    count: int
+
+
+@dataclass(frozen=True, slots=True)
 class Audit:
-    """The result of one audit run."""
+    """The result of one audit run. ``withheld`` counts those findings that are not among ``findings``."""
 
     inputs: Sequence[AuditedInput]
     findings: Sequence[Finding]
+    withheld: Sequence[Withheld] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,6 +17,7 @@ from mmsverify.formats.locations import Location, local
 from mmsverify.formats.paths import trace_locations
 from mmsverify.incident import Dossier
 from mmsverify.report import AUDIT_FORMATS, render_audit, require_format
+from mmsverify.report.capping import capped
 from mmsverify.report.wording import counted
 from mmsverify.results import Audit, AuditedInput, Finding
 
@@ -71,6 +72,15 @@ Kernel = Annotated[
     bool, typer.Option("--kernel", help="Compiled loops (extra fast); without this, for long traces only.")
 ]
 NoKernel = Annotated[bool, typer.Option("--no-kernel", help="No compiled loops.")]
+MaxPerRule = Annotated[
+    int | None,
+    typer.Option(
+        "--max-per-rule", metavar="N", min=1,
+        help="Tell at most N findings of a rule and device in a trace; count the rest.",
+    ),
+]  # fmt: skip
+Strict = Annotated[bool, typer.Option("--strict", help="Warnings count as errors for the exit status.")]
+ExitZero = Annotated[bool, typer.Option("--exit-zero", help="End with 0 in spite of violations; 2 stays 2.")]
 
 
 def audit(
@@ -88,6 +98,9 @@ def audit(
     exact: Exact = False,
     kernel: Kernel = False,
     no_kernel: NoKernel = False,
+    max_per_rule: MaxPerRule = None,
+    strict: Strict = False,
+    exit_zero: ExitZero = False,
     output: Output = None,
     quiet: Quiet = False,
 ) -> int:
@@ -96,6 +109,7 @@ def audit(
     Exit status: 0 no error-level violation, 1 at least one, 2 bad request or nothing could be read.
     """
     require_format(format, FORMATS)
+    failing = _failing(strict=strict, exit_zero=exit_zero)
     paths = trace_locations(traces)
     if annotate is not None:
         _require_one(annotate, paths, format)
@@ -105,14 +119,22 @@ def audit(
         "jobs": jobs, "scheduler": _scheduler(engine, scheduler, jobs), "resume": resume,
     }  # fmt: skip
     if format == PARQUET:
-        result = _to_dataset(paths, output, given, quiet=quiet)
+        result = _to_dataset(paths, output, given, max_per_rule, quiet=quiet)
     else:
         require_writable(output, local(paths))
         result = _audited(paths, given, quiet=quiet)
-        emit(render_audit(result, format, _dossier(result, given) if format == "html" else None), output)
-    if annotate is not None:
-        _annotate(paths[0], result, annotate, quiet=quiet)
-    return int(any(finding.severity == "error" for finding in result.findings))
+        told = capped(result, max_per_rule)
+        emit(render_audit(told, format, _dossier(told, format, given)), output)
+        if annotate is not None:
+            _annotate(paths[0], told, annotate, quiet=quiet)
+    return int(any(finding.severity in failing for finding in result.findings))
+
+
+def _failing(*, strict: bool, exit_zero: bool) -> frozenset[str]:
+    """The severities that make the exit status 1."""
+    if strict and exit_zero:
+        raise UsageError("not with --exit-zero", place="--strict", cure="leave out one of them")
+    return frozenset() if exit_zero else frozenset({"error", *(("warning",) if strict else ())})
 
 
 def _compiled(*, exact: bool, kernel: bool, no_kernel: bool) -> bool | None:
@@ -154,13 +176,20 @@ def _audited(paths: list[Location], given: Options, *, quiet: bool) -> Audit:
     return result
 
 
-def _dossier(result: Audit, given: Options) -> Dossier:
-    from mmsverify.incidents import dossier
+def _dossier(result: Audit, format: str, given: Options) -> Dossier | None:
+    """What the format tells beside the findings."""
+    if format not in ("html", "sarif"):
+        return None
+    from mmsverify.incidents import dossier, statements
 
+    if format == "sarif":
+        return Dossier(statements=statements(result))
     return dossier(result, profile=given["profile"], model=given["model"], variant=given["variant"])
 
 
-def _to_dataset(paths: list[Location], folder: Path | None, given: Options, *, quiet: bool) -> Audit:
+def _to_dataset(
+    paths: list[Location], folder: Path | None, given: Options, most: int | None, *, quiet: bool
+) -> Audit:
     """Write the results as they come; gives back of the findings those that decide how it ends."""
     from mmsverify.auditing import audit_each
 
@@ -171,11 +200,11 @@ def _to_dataset(paths: list[Location], folder: Path | None, given: Options, *, q
         audits = audit_each(paths, progress=report, **given)
         with Dataset(folder) as dataset:
             for audit in audits:
-                dataset.add(audit)
+                dataset.add(capped(audit, most))
                 found += len(audit.findings)
                 inputs += audit.inputs
-                errors = [finding for finding in audit.findings if finding.severity == "error"]
-                kept += [finding for finding in errors if finding.rule == UNREADABLE] or errors[:1]
+                worst = {finding.severity: finding for finding in reversed(audit.findings)}
+                kept += [f for f in audit.findings if f.rule == UNREADABLE] or worst.values()
     result = Audit(inputs, kept)
     _require_read(result)
     remark(f"wrote {folder}: {counted(len(paths), 'recording')}, {counted(found, 'finding')}", quiet=quiet)
@@ -206,8 +235,8 @@ def _require_read(audit: Audit) -> None:
     raise InputError(first.message, place=place, cure=others)
 
 
-def _annotate(path: Location, result: Audit, out: Path, *, quiet: bool) -> None:
+def _annotate(path: Location, audit: Audit, out: Path, *, quiet: bool) -> None:
     from mmsverify.auditing import annotate
 
-    annotate(path, result.findings, out)
+    annotate(path, audit.findings, out)
     remark(f"wrote {out}", quiet=quiet)

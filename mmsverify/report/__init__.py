@@ -91,9 +91,12 @@ RECORD_FORMATS: Mapping[str, Callable[[str, recording.Recording], str]] = {
 def render_audit(audit: Audit, format: str, dossier: Dossier | None = None) -> str:
     """The audit in ``format``, a key of ``AUDIT_FORMATS``; the text ends with a line feed.
 
-    ``dossier``: what a page shows beside the findings; the other formats have no room for it.
+    ``dossier``: what a page shows beside the findings; of it SARIF tells what the clauses say, as the help of
+    its rules. The other formats have no room for it.
     """
     render = AUDIT_FORMATS[require_format(format, AUDIT_FORMATS)]
+    if render is audit_sarif.render:
+        return audit_sarif.render(audit, dossier.statements if dossier else None)
     return html.render(audit, dossier) if render is html.render else render(audit)
 
 

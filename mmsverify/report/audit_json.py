@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import asdict
 from typing import Any
 
 from mmsverify.report.order import ordered, tally
@@ -18,18 +19,20 @@ def render(audit: Audit) -> str:
 
 
 def document(audit: Audit) -> dict[str, Any]:
-    counts = tally(audit.findings)
-    return {
+    """The audit as JSON's types; ``withheld`` stands there where findings are counted and not told."""
+    counts = tally(audit.findings, audit.withheld)
+    told = {
         "schema": SCHEMA,
         "inputs": [summary(entry) for entry in audit.inputs],
         "summary": {
-            "violations": len(audit.findings),
+            "violations": sum(counts.values()),
             "errors": counts["error"],
             "warnings": counts["warning"],
             "notes": counts["note"],
         },
         "violations": [violation(finding) for finding in ordered(audit.findings)],
     }
+    return told | ({"withheld": [asdict(rest) for rest in audit.withheld]} if audit.withheld else {})
 
 
 def summary(entry: AuditedInput) -> dict[str, Any]:

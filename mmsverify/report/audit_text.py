@@ -18,23 +18,36 @@ def render(audit: Audit) -> str:
         lines += [_reading(path, entry), ""]
         for finding in findings:
             lines += [*_finding(finding), ""]
+        rest = [f"  {line}" for line in withheld(audit, path)]
+        lines += [*rest, ""] if rest else []
     return "\n".join([*lines, summary(audit)]) + "\n"
 
 
 def summary(audit: Audit) -> str:
     """The closing line: how much was read, how much was found."""
-    counts = tally(audit.findings)
+    counts = tally(audit.findings, audit.withheld)
+    total = sum(counts.values())
     judged = any(entry.events for entry in audit.inputs)
     nothing = (
         "no model knows these channels" if any(e.messages for e in audit.inputs) else "there is no message"
     )
     none = "no violation" if judged else f"nothing was judged: {nothing}"
-    found = counted(len(audit.findings), "violation") if audit.findings else none
+    found = counted(total, "violation") if total else none
     parts = ", ".join(counted(number, severity) for severity, number in counts.items())
     messages = counted(sum(entry.messages for entry in audit.inputs), "message")
     unread = sum(entry is None for _, entry, _ in by_input(audit))
     read = counted(len(audit.inputs), "input") + (f" ({unread} more not read)" if unread else "")
-    return f"{read}, {messages}: {found}" + (f" ({parts})" if audit.findings else "")
+    return f"{read}, {messages}: {found}" + (f" ({parts})" if total else "")
+
+
+def withheld(audit: Audit, path: str) -> list[str]:
+    """What is counted and not told of one recording: a line for each rule, device and severity."""
+    return [
+        f"{rest.severity.upper()}  {printable(rest.rule)}  {rest.count} more"
+        f"{f' of {printable(rest.vmd)}' if rest.vmd else ''}, not told (--max-per-rule)"
+        for rest in audit.withheld
+        if rest.path == path
+    ]
 
 
 def _reading(path: str, entry: AuditedInput | None) -> str:

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from mmsverify.results import Audit, AuditedInput, Finding
+from mmsverify.results import Audit, AuditedInput, Finding, Withheld
 
 SEVERITIES = ("error", "warning", "note")
 
@@ -35,7 +35,12 @@ def _missing(found: Mapping[str, object], read: Mapping[str, object]) -> dict[st
     return {path: None for path in found if path not in read}
 
 
-def tally(findings: Iterable[Finding]) -> dict[str, int]:
-    """How many findings of each severity; a finding that stands for several events counts once."""
+def tally(findings: Iterable[Finding], withheld: Iterable[Withheld] = ()) -> dict[str, int]:
+    """How many findings of each severity, with those that are only counted.
+
+    A finding that stands for several events counts once.
+    """
     counts: Counter[str] = Counter(finding.severity for finding in findings)
+    for rest in withheld:
+        counts[rest.severity] += rest.count
     return {severity: counts[severity] for severity in SEVERITIES}

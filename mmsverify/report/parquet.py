@@ -43,6 +43,7 @@ FINDINGS = _schema({
 INPUTS = _schema({
     "path": pa.string(), "read": pa.bool_(), "messages": WHOLE, "events": WHOLE, "skipped": WHOLE,
     "truncated": pa.bool_(), "seconds": pa.float64(), "errors": WHOLE, "warnings": WHOLE, "notes": WHOLE,
+    "withheld": WHOLE,
 })  # fmt: skip
 
 
@@ -54,7 +55,10 @@ def findings(audits: Sequence[Audit]) -> bytes:
 
 
 def inputs(audits: Sequence[Audit]) -> bytes:
-    """A Parquet file with a row for each recording, of audits of one recording each."""
+    """A Parquet file with a row for each recording, of audits of one recording each.
+
+    ``errors``, ``warnings`` and ``notes`` count all findings, ``withheld`` those of them that have no row.
+    """
     return _file([_input(audit) for audit in audits], INPUTS)
 
 
@@ -70,9 +74,10 @@ def _finding(row: dict[str, Any]) -> dict[str, Any]:
 
 
 def _input(audit: Audit) -> dict[str, Any]:
-    counts = tally(audit.findings)
+    counts = tally(audit.findings, audit.withheld)
     row = summary(audit.inputs[0]) if audit.inputs else {"path": audit.findings[0].path}
     numbers = {"errors": counts["error"], "warnings": counts["warning"], "notes": counts["note"]}
+    numbers["withheld"] = sum(rest.count for rest in audit.withheld)
     return {**row, "read": bool(audit.inputs), **numbers}
 
 

@@ -76,7 +76,9 @@ def test_a_clean_audit_is_a_run_without_results() -> None:
     told = run(CLEAN)
     assert told["results"] == []
     amounts = {"messages": 1204, "events": 1200, "skipped": 4, "truncated": False}
-    assert told["artifacts"] == [{"location": {"uri": "a.mcap"}, "properties": amounts}]
+    place = {"uri": "a.mcap", "uriBaseId": "%SRCROOT%"}
+    assert told["artifacts"] == [{"location": place, "roles": ["analysisTarget"], "properties": amounts}]
+    assert told["invocations"] == [{"executionSuccessful": True}]
 
 
 @pytest.mark.parametrize(

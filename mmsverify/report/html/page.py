@@ -10,7 +10,7 @@ from importlib.resources import files
 
 import mmsverify
 from mmsverify.incident import Dossier, Incident
-from mmsverify.report.audit_text import summary
+from mmsverify.report.audit_text import summary, withheld
 from mmsverify.report.html.finding import line, whole
 from mmsverify.report.html.numbered import Group, Numbered, grouped, numbered
 from mmsverify.report.html.states import path
@@ -71,12 +71,24 @@ def _inputs(audit: Audit) -> str:
     head = "<tr><th>Recording</th>" + "".join(f'<th class="number">{name}</th>' for name in names) + "</tr>"
     told = [(name, entry, found) for name, entry, found in by_input(audit)]
     rows = "".join(
-        _input(name, entry, len(found), sum(f.count for f in found if f.rule.endswith("undecodable")))
+        _input(
+            name,
+            entry,
+            len(found) + sum(rest.count for rest in audit.withheld if rest.path == name),
+            sum(f.count for f in found if f.rule.endswith("undecodable")),
+        )
         for name, entry, found in told
     )
-    return (
-        f'<section id="inputs"><h2>What was read</h2><table class="inputs">{head}\n{rows}</table></section>'
-    )
+    table = f'<table class="inputs">{head}\n{rows}</table>'
+    return f'<section id="inputs"><h2>What was read</h2>{table}{_withheld(audit)}</section>'
+
+
+def _withheld(audit: Audit) -> str:
+    """What is counted and not told."""
+    lines = [
+        f"{name}: {line}" for name, _, _ in by_input(audit) for line in withheld(audit, name)
+    ]
+    return "".join(f"<p>{text(line)}</p>\n" for line in lines)
 
 
 def _input(name: str, entry: AuditedInput | None, findings: int, undecoded: int) -> str:
