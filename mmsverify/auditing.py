@@ -14,7 +14,6 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mmsverify.audit.annotate import annotate
 from mmsverify.audit.learning.lasting import of_thread
 from mmsverify.audit.replay import Replay
 from mmsverify.audit.spoken import Listener
@@ -31,7 +30,7 @@ from mmsverify.results import Audit, AuditedInput, Finding
 if TYPE_CHECKING:
     from mmsverify.fleet.cluster import Client
 
-__all__ = ["annotate", "audit_each", "audit_traces", "read_events"]
+__all__ = ["audit_each", "audit_traces", "read_events"]
 
 Tables = Mapping[str, Mapping[str, Any]]
 

@@ -10,7 +10,7 @@ import typer
 from mmsverify.commands.bar import audit_bar
 from mmsverify.commands.dataset import PARQUET, Dataset
 from mmsverify.commands.options import Output, Profile, Quiet, Variant, place
-from mmsverify.commands.output import emit, remark, require_writable
+from mmsverify.commands.output import emit, remark, replacing, require_writable
 from mmsverify.errors import InputError, UsageError
 from mmsverify.fleet.tasks import LOCAL, UNREADABLE
 from mmsverify.formats.locations import Location, local
@@ -126,7 +126,7 @@ def audit(
         told = capped(result, max_per_rule)
         emit(render_audit(told, format, _dossier(told, format, given)), output)
         if annotate is not None:
-            _annotate(paths[0], told, annotate, quiet=quiet)
+            _annotate(paths[0], told, annotate, given, quiet=quiet)
     return int(any(finding.severity in failing for finding in result.findings))
 
 
@@ -235,8 +235,12 @@ def _require_read(audit: Audit) -> None:
     raise InputError(first.message, place=place, cure=others)
 
 
-def _annotate(path: Location, audit: Audit, out: Path, *, quiet: bool) -> None:
-    from mmsverify.auditing import annotate
+def _annotate(path: Location, audit: Audit, out: Path, given: Options, *, quiet: bool) -> None:
+    from mmsverify.annotating import annotate
 
-    annotate(path, audit.findings, out)
+    manner = {name: given[name] for name in ("profile", "model", "variant")}
+    with replacing(out) as part:
+        shifted = annotate(path, audit, part, **manner)
     remark(f"wrote {out}", quiet=quiet)
+    if shifted:
+        remark(f"{out}: {counted(shifted, 'message')} of log time 0 put at 1 ns, for viewers", quiet=quiet)

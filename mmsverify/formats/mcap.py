@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import os
 from bisect import bisect_left
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from itertools import pairwise
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO, TypeVar
 
 from mmsverify.errors import InputError
 from mmsverify.formats.locations import Url, located
@@ -33,6 +33,9 @@ _SMALL = 16 << 20
 # Messages that wait because later chunks claim earlier times. More than this is a file to be sorted first.
 _LARGEST_WAIT = 384 << 20
 _COST = 250  # octets of memory for one waiting message beside its data
+M = TypeVar("M", bound=tuple[int, int, Any, bytes])
+"""What is made of a message: log time, rank, anything, data."""
+Load = Callable[[Block, BinaryIO, Definitions], list[M]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,11 +72,23 @@ class McapTrace:
 
     def batches(self) -> Iterator[list[Message]]:
         """The same messages as lists of (log time, rank, channel, data), for readers in a hurry."""
-        with _open(self.path, self._store) as file:
+        yield from self.batches_by(Block.load, _copied(self._survey))
+
+    def batches_by(self, load: Load[M], known: Definitions) -> Iterator[list[M]]:
+        """The same, of what ``load`` makes of a block; what the file defines goes to ``known``."""
+        with self.open() as file:
             try:
-                yield from _in_order(file, self._survey)
+                yield from _in_order(file, self._survey, load, known)
             except InputError as error:
                 raise InputError(error.cause, place=self.path, cure=error.cure) from None
+
+    def open(self) -> BinaryIO:
+        """The file itself, from its first octet."""
+        return _open(self.path, self._store)
+
+    def definitions(self) -> Definitions:
+        """The schemas and channels that stand outside chunks, as a copy."""
+        return _copied(self._survey)
 
     def stretches(self, *, merged: bool = False) -> Iterator[Stretch]:
         """The same messages, as they stand in the file one chunk after the other.
@@ -157,25 +172,24 @@ def _copied(found: Survey) -> Definitions:
     return Definitions(dict(found.known.schemas), dict(found.known.channels))
 
 
-def _in_order(file: BinaryIO, found: Survey) -> Iterator[list[Message]]:
-    known = _copied(found)
+def _in_order(file: BinaryIO, found: Survey, load: Load[M], known: Definitions) -> Iterator[list[M]]:
     if sum(block.unpacked for block in found.blocks) <= _SMALL:
-        yield sorted(message for block in found.blocks for message in block.load(file, known))
+        yield sorted(message for block in found.blocks for message in load(block, file, known))
         return
     plan = sorted(found.blocks, key=lambda block: (block.start, block.number))
     if plan != found.blocks:  # a later chunk goes first: it may lean on channels that an earlier one defines
         for block in found.blocks:
             block.load(file, known)
-    yield from _merged(file, plan, known)
+    yield from _merged(file, plan, load, known)
 
 
-def _merged(file: BinaryIO, plan: list[Block], known: Definitions) -> Iterator[list[Message]]:
+def _merged(file: BinaryIO, plan: list[Block], load: Load[M], known: Definitions) -> Iterator[list[M]]:
     """What is earlier than the start of the next block can go; the rest waits for what that block holds."""
-    waiting: list[Message] = []
+    waiting: list[M] = []
     gone = -1
     for block, following in pairwise([*plan, None]):
         assert block is not None
-        waiting += block.load(file, known)
+        waiting += load(block, file, known)
         waiting.sort()  # ranks differ, so the comparison never reaches the channel
         if waiting and waiting[0][0] < gone:
             raise InputError(f"octet {block.position}: a chunk holds messages before the time that it claims")
@@ -187,7 +201,7 @@ def _merged(file: BinaryIO, plan: list[Block], known: Definitions) -> Iterator[l
         _refuse_long_wait(waiting)
 
 
-def _refuse_long_wait(waiting: list[Message]) -> None:
+def _refuse_long_wait(waiting: Sequence[Any]) -> None:
     held = len(waiting) * _COST
     if held > _LARGEST_WAIT or held + sum(len(message[3]) for message in waiting) > _LARGEST_WAIT:
         raise InputError("too many messages are out of time order", cure="sort the recording by log time")

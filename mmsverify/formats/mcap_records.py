@@ -21,6 +21,7 @@ from mmsverify.formats.trace import Channel, Schema
 
 MAGIC = b"\x89MCAP0\r\n"
 FOOTER, SCHEMA, CHANNEL, MESSAGE, CHUNK, METADATA, DATA_END = 0x02, 0x03, 0x04, 0x05, 0x06, 0x0C, 0x0F
+HEADER, ATTACHMENT = 0x01, 0x09
 RUN_RECORDS = frozenset({SCHEMA, CHANNEL, MESSAGE, METADATA})
 
 HEAD = struct.Struct("<BQ")  # opcode, length of what follows

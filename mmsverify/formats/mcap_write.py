@@ -31,14 +31,15 @@ class TraceWriter:
         *,
         compress: bool = True,
         indexed: bool = True,
+        profile: str = "",
     ) -> None:
         self._owned = isinstance(target, (str, os.PathLike))
         self._stream = _create(target) if isinstance(target, (str, os.PathLike)) else target
         compression = CompressionType.ZSTD if compress else CompressionType.NONE
         indexes = IndexType.ALL if indexed else IndexType.NONE
         self._writer = Writer(self._stream, compression=compression, index_types=indexes)
-        self._writer.start(profile="", library="mmsverify")
-        self._channels: dict[Channel, int] = {}
+        self._writer.start(profile=profile, library="mmsverify")
+        self._channels: dict[tuple[Channel, int | None], int] = {}
         self._schemas: dict[Schema, int] = {}
         self._count = 0
 
@@ -49,12 +50,21 @@ class TraceWriter:
 
     def add(self, time: int, channel: Channel, data: bytes) -> None:
         """Add one message; ``time`` in ns. Events are ordered by time, then by the order of these calls."""
-        number = self._channels.get(channel)
-        if number is None:
-            number = self._register(channel)
+        number = self.register(channel)
         sequence = self._count & 0xFFFFFFFF
         self._writer.add_message(number, log_time=time, data=data, publish_time=time, sequence=sequence)
         self._count += 1
+
+    def add_copy(self, time: int, number: int, data: bytes, *, publish: int, sequence: int) -> None:
+        """Add a message of another recording to a channel by its number; ``publish``: its time in ns."""
+        self._writer.add_message(number, log_time=time, data=data, publish_time=publish, sequence=sequence)
+        self._count += 1
+
+    def add_attachment(self, name: str, media_type: str, data: bytes, *, log: int, created: int) -> None:
+        """Add a file to the recording; ``log`` and ``created`` are times in ns."""
+        self._writer.add_attachment(
+            create_time=created, log_time=log, name=name, media_type=media_type, data=data
+        )
 
     def add_profile(self, pairs: Mapping[str, str]) -> None:
         """Add the metadata record that names the model and the profile's keys."""
@@ -82,18 +92,28 @@ class TraceWriter:
     ) -> None:
         self.close()
 
-    def _register(self, channel: Channel) -> int:
+    def register(self, channel: Channel, number: int | None = None) -> int:
+        """The number of the channel in this file, which holds it from now on.
+
+        ``number`` is the one it had elsewhere: channels that only differ in it stay two.
+        """
+        key = channel, number
+        known = self._channels.get(key)
+        if known is None:
+            known = self._channels[key] = self._defined(channel)
+        return known
+
+    def _defined(self, channel: Channel) -> int:
         if len(self._channels) == _MOST_CHANNELS:
             cause = f"more than {_MOST_CHANNELS:,} channels do not fit into one recording"
             raise UsageError(cause, cure="write several")
-        schema = self._register_schema(channel.schema) if channel.schema else 0
-        number = self._writer.register_channel(
+        schema = self.register_schema(channel.schema) if channel.schema else 0
+        return self._writer.register_channel(
             channel.topic, channel.message_encoding, schema, dict(channel.metadata)
         )
-        self._channels[channel] = number
-        return number
 
-    def _register_schema(self, schema: Schema) -> int:
+    def register_schema(self, schema: Schema) -> int:
+        """The number of the schema in this file, which holds it from now on."""
         if schema not in self._schemas:
             self._schemas[schema] = self._writer.register_schema(schema.name, schema.encoding, schema.data)
         return self._schemas[schema]

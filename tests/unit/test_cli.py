@@ -279,13 +279,28 @@ def test_a_folder_without_traces_is_handed_on_to_be_refused(engine: Engine, tmp_
 
 def test_annotate_copies_the_one_trace_with_its_findings(engine: Engine, tmp_path: Path) -> None:
     written: list[Any] = []
-    engine(
-        "auditing",
-        audit_traces=lambda *_, **__: Audit([READ], [START]),
-        annotate=lambda path, findings, out: written.append((path, findings, out)),
-    )
-    assert main(["audit", "a.mcap", "--annotate", str(tmp_path / "out.mcap"), "-q"]) == 0
-    assert written == [(Path("a.mcap"), [START], tmp_path / "out.mcap")]
+
+    def annotate(path: Path, audit: Audit, out: Path, **manner: Any) -> int:
+        written.append((path, audit.findings, manner))
+        out.write_text("copied", encoding="utf-8")
+        return 0
+
+    auditing(engine, Audit([READ], [START]))
+    engine("annotating", annotate=annotate)
+    options = ["--annotate", str(tmp_path / "out.mcap"), "--variant", "as-written", "-q"]
+    assert main(["audit", "a.mcap", *options]) == 0
+    assert written == [(Path("a.mcap"), [START], {"profile": None, "model": None, "variant": "as-written"})]
+    assert [path.name for path in tmp_path.iterdir()] == ["out.mcap"]
+
+
+def test_an_annotation_that_fails_leaves_nothing_behind(
+    engine: Engine, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    auditing(engine, CLEAN)
+    engine("annotating", annotate=refusing(InputError("is damaged", place="a.mcap")))
+    assert main(["audit", "a.mcap", "--annotate", str(tmp_path / "out.mcap")]) == 2
+    assert list(tmp_path.iterdir()) == []
+    assert "is damaged" in capsys.readouterr().err
 
 
 def test_annotate_takes_one_trace(capsys: pytest.CaptureFixture[str]) -> None:

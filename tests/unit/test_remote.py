@@ -188,7 +188,7 @@ def test_a_remote_recording_is_annotated(memory: Any, tmp_path: Path) -> None:
     memory.pipe("/box/x.mcap", SAMPLE.read_bytes())
     out = tmp_path / "out.mcap"
     assert main(["audit", "-q", "memory://box/x.mcap", "--annotate", str(out)]) == 1
-    assert any(message.topic.endswith("/violations") for message in read_trace(out))
+    assert any(message.topic == "/mmsverify/findings" for message in read_trace(out))
 
 
 def test_sarif_names_the_url(memory: Any, capsys: pytest.CaptureFixture[str]) -> None:
