@@ -32,7 +32,7 @@ FINGERPRINTS = ("primaryLocationLineHash", "mmsverifyFinding/v1")
 
 
 def render(audit: Audit, statements: Mapping[str, str] | None = None) -> str:
-    """The log. ``statements`` are what clauses and readings say, by id; without them rules have no help but the ids."""
+    """The log. ``statements``: what clauses and readings say, by id; without them rules have no help."""
     log = {"$schema": SCHEMA, "version": VERSION, "runs": [_run(audit, statements or {})]}
     return json.dumps(log, indent=2, ensure_ascii=True) + "\n"
 

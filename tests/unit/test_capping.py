@@ -15,6 +15,7 @@ from report_samples import READ, SELECT, START
 from mmsverify.cli import main
 from mmsverify.formats.mcap import TraceWriter
 from mmsverify.formats.trace import Channel
+from mmsverify.incident import Dossier
 from mmsverify.report import AUDIT_FORMATS, render_audit
 from mmsverify.report.capping import capped
 from mmsverify.results import Audit, Finding, Severity, Withheld
@@ -130,6 +131,7 @@ def found(monkeypatch: pytest.MonkeyPatch) -> Callable[[Sequence[Finding]], None
         audit = Audit([READ], list(findings))
         monkeypatch.setattr("mmsverify.auditing.audit_traces", lambda *_, **__: audit)
         monkeypatch.setattr("mmsverify.auditing.audit_each", lambda *_, **__: iter([audit]))
+        monkeypatch.setattr("mmsverify.incidents.dossier", lambda *_, **__: Dossier())
 
     return find
 

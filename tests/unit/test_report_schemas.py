@@ -17,7 +17,8 @@ from report_samples import AUDIT, CLEAN, HOSTILE, READ, SELECT, START, UNREADABL
 
 from mmsverify.auditing import audit_traces
 from mmsverify.cli import main
-from mmsverify.register.statements import words
+from mmsverify.incident import Dossier
+from mmsverify.incidents import statements
 from mmsverify.report import render_audit
 from mmsverify.report.capping import capped
 from mmsverify.resources import traces_dir
@@ -25,6 +26,7 @@ from mmsverify.results import Audit
 
 SCHEMAS = Path(__file__).parents[1] / "schemas"
 SAMPLES = sorted(traces_dir().glob("*.mcap"))
+DOSSIER = Dossier(statements={"R-7.4.4.2-d": "what it says"})
 MANY = Audit([READ], [replace(START, index=index) for index in range(9)] + [SELECT, UNREADABLE])
 AUDITS = {
     "usual": AUDIT, "clean": CLEAN, "nothing": Audit([], []), "capped": capped(MANY, 2),
@@ -43,7 +45,7 @@ def junit_schema() -> xmlschema.XMLSchema:
 
 
 def sarif(audit: Audit) -> Any:
-    log = json.loads(render_audit(audit, "sarif", statements={"R-7.4.4.2-d": "what it says"}))
+    log = json.loads(render_audit(audit, "sarif", DOSSIER))
     sarif_schema().validate(log)
     return log["runs"][0]
 
@@ -77,8 +79,7 @@ def test_no_text_of_a_recording_breaks_either(text: str) -> None:
 @pytest.mark.parametrize("path", SAMPLES, ids=lambda path: path.stem)
 def test_of_every_sample_both_are_valid_and_every_rule_has_help(path: Path) -> None:
     audit = audit_traces([path], profile=None, model=None)
-    cited = {clause for finding in audit.findings for clause in finding.clauses}
-    log = json.loads(render_audit(audit, "sarif", statements=words(cited)))
+    log = json.loads(render_audit(audit, "sarif", Dossier(statements=statements(audit))))
     sarif_schema().validate(log)
     junit_schema().validate(render_audit(audit, "junit"))
     for rule in log["runs"][0]["tool"]["driver"]["rules"]:
@@ -89,7 +90,8 @@ def test_the_command_tells_what_the_clauses_say(tmp_path: Path) -> None:
     out, trace = tmp_path / "x.sarif", traces_dir() / "two-clients.mcap"
     assert main(["audit", str(trace), "-q", "--format", "sarif", "-o", str(out)]) == 1
     (rule,) = json.loads(out.read_text(encoding="utf-8"))["runs"][0]["tool"]["driver"]["rules"]
-    assert rule["help"]["text"] == f"R-7.3.3.4.1-b: {words({'R-7.3.3.4.1-b'})['R-7.3.3.4.1-b']}"
+    said = statements(audit_traces([trace], profile=None, model=None))
+    assert rule["help"]["text"] == f"R-7.3.3.4.1-b: {said['R-7.3.3.4.1-b']}"
     assert "- **R-7.3.3.4.1-b** " in rule["help"]["markdown"]
 
 

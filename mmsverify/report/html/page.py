@@ -85,9 +85,7 @@ def _inputs(audit: Audit) -> str:
 
 def _withheld(audit: Audit) -> str:
     """What is counted and not told."""
-    lines = [
-        f"{name}: {line}" for name, _, _ in by_input(audit) for line in withheld(audit, name)
-    ]
+    lines = [f"{name}: {line}" for name, _, _ in by_input(audit) for line in withheld(audit, name)]
     return "".join(f"<p>{text(line)}</p>\n" for line in lines)
 
 
