@@ -15,7 +15,6 @@ from report_samples import READ, SELECT, START
 from mmsverify.cli import main
 from mmsverify.formats.mcap import TraceWriter
 from mmsverify.formats.trace import Channel
-from mmsverify.incident import Dossier
 from mmsverify.report import AUDIT_FORMATS, render_audit
 from mmsverify.report.capping import capped
 from mmsverify.results import Audit, Finding, Severity, Withheld
@@ -64,6 +63,7 @@ def test_json_counts_all_of_them() -> None:
 def test_people_are_told_the_true_counts(format: str) -> None:
     page = render_audit(FEW, format)
     assert "16 violations (13 errors, 1 warning, 2 notes)" in page
+    assert "6 more of cell7, not told (--max-per-rule)" in page
 
 
 def test_text_tells_what_it_leaves_out() -> None:
@@ -131,7 +131,6 @@ def found(monkeypatch: pytest.MonkeyPatch) -> Callable[[Sequence[Finding]], None
         audit = Audit([READ], list(findings))
         monkeypatch.setattr("mmsverify.auditing.audit_traces", lambda *_, **__: audit)
         monkeypatch.setattr("mmsverify.auditing.audit_each", lambda *_, **__: iter([audit]))
-        monkeypatch.setattr("mmsverify.incidents.dossier", lambda *_, **__: Dossier())
 
     return find
 
