@@ -57,11 +57,15 @@ def _head(each: Numbered) -> str:
 def _told(finding: Finding, statements: Mapping[str, str]) -> list[tuple[str, str]]:
     return [
         ("clause", "<br>".join(_cited(finding.clauses, statements))),
-        ("reading", "<br>".join(_cited(finding.readings, statements))),
-        ("observed", text(finding.observed)),
-        ("legal would be", text(" or ".join(finding.expected))),
+        ("our reading", "<br>".join(_cited(finding.readings, statements))),
+        ("observed", text(_plain(finding.observed))),
+        ("legal would be", text(" or ".join(map(_plain, finding.expected)))),
         ("led up to by", ", ".join(f"message {index}" for index in finding.related)),
     ]
+
+
+def _plain(answer: str) -> str:
+    return {"result(+)": "accepted: result(+)", "result(-)": "refused: result(-)"}.get(answer, answer)
 
 
 def _cited(ids: Sequence[str], statements: Mapping[str, str]) -> Iterator[str]:
@@ -113,7 +117,9 @@ def _around(finding: Finding, incident: Incident | None) -> str:
     rows = "".join(_row(saying, marked.get(saying.index, "")) for saying in said)
     head = "<tr><th>message</th><th>time</th><th>from</th><th>what</th><th>values</th></tr>"
     table = folded("The same as a table", f'<table class="sayings">{head}\n{rows}</table>\n')
-    return folded("Around it", chart(said, finding.index, set(finding.related)) + table, opened=True)
+    return folded(
+        "The messages around it", chart(said, finding.index, set(finding.related)) + table, opened=True
+    )
 
 
 def _row(saying: Saying, mark: str) -> str:
@@ -121,11 +127,12 @@ def _row(saying: Saying, mark: str) -> str:
     sender = (
         f"{saying.partner} {saying.sender}" if saying.sender == "client" else saying.sender or saying.partner
     )
+    what = f"{saying.title}: {saying.about}" if saying.about else saying.title
     told = (
         str(saying.index),
         clock(saying.time),
         text(sender),
-        text(saying.title),
+        text(what),
         text(saying.fault or values),
     )
     return element("tr", "".join(f"<td>{cell}</td>" for cell in told), class_=mark or None) + "\n"

@@ -36,6 +36,7 @@ function filter() {
   for (const section of document.querySelectorAll(".device")) {
     section.classList.toggle("away", Boolean(device) && section.dataset.device !== device);
   }
+  document.querySelector(".nothing").hidden = shown > 0;
   form.querySelector("output").value = `${shown} of ${found.length} findings`;
 }
 
@@ -50,10 +51,12 @@ if (form) {
 // Timelines: from which share of the time to which is shown.
 
 const shownOf = new Map();
+const LETTER = 6.2; // pixels
 
 function draw(timeline) {
   const [begin, end] = shownOf.get(timeline) || [0, 1];
   const wide = end - begin;
+  const pixels = timeline.querySelector(".lanes-window").clientWidth;
   for (const part of timeline.querySelectorAll("[data-at]")) {
     const at = (Number(part.dataset.at) - begin) / wide;
     const width = Number(part.dataset.wide) / wide;
@@ -63,14 +66,30 @@ function draw(timeline) {
     // What began before the window begins at its edge, so that its words can be read.
     const left = Math.max(at, part.classList.contains("part") ? 0 : at);
     part.setAttribute("x", `${100 * left}%`);
-    part.setAttribute("width", `${100 * Math.max(Math.min(at + width, 1) - left, 0.0005)}%`);
+    const seen = Math.max(Math.min(at + width, 1) - left, 0.0005);
+    part.setAttribute("width", `${100 * seen}%`);
+    const words = part.classList.contains("part") && part.querySelector("text");
+    if (words) part.classList.toggle("tight", LETTER * words.textContent.length > seen * pixels);
   }
   const zoom = document.querySelector(".zoom output");
-  if (zoom) zoom.value = `${Math.round(1 / wide)} times`;
+  if (zoom) zoom.value = wide < 1 ? `${Math.round(1 / wide)}\u00d7` : "";
   const first = Number(timeline.dataset.begin), last = Number(timeline.dataset.end);
   const ends = timeline.querySelectorAll(".ends time");
-  ends[0].textContent = instant(first + (last - first) * begin);
-  ends[1].textContent = instant(first + (last - first) * end);
+  ends.forEach((time, quarter) => {
+    time.textContent = instant(first + (last - first) * (begin + (wide * quarter) / (ends.length - 1)));
+  });
+}
+
+// Where to zoom to: the finding that was last gone to, else the first one in the window, else the middle.
+function middle(timeline) {
+  const [begin, end] = shownOf.get(timeline) || [0, 1];
+  const marks = Array.from(timeline.querySelectorAll("a.mark"));
+  const chosen = marks.filter((mark) => mark.hash === location.hash);
+  for (const mark of chosen.concat(marks)) {
+    const at = (Number(mark.querySelector("[data-at]").dataset.at) - begin) / (end - begin);
+    if (at >= 0 && at <= 1) return at;
+  }
+  return 0.5;
 }
 
 // Nanoseconds do not fit into a number; the ends of a window are told to the microsecond.
@@ -80,7 +99,7 @@ function instant(nanoseconds) {
   return new Date(milliseconds).toISOString().replace("T", " ").replace("Z", rest);
 }
 
-function move(timeline, what, at = 0.5) {
+function move(timeline, what, at = middle(timeline)) {
   let [begin, end] = shownOf.get(timeline) || [0, 1];
   const wide = end - begin;
   const factor = { in: 0.5, out: 2 }[what];

@@ -20,6 +20,11 @@ from mmsverify.report.order import SEVERITIES, by_input
 from mmsverify.report.wording import counted
 from mmsverify.results import Audit, AuditedInput
 
+KEY = (
+    '<p class="key">What was known after each message. Solid: known; dashed: one of these; empty: not known; '
+    "a triangle: a finding, with its number; a band: messages are missing. After a finding, what contradicts is "
+    "no longer taken for known.</p>\n"
+)
 MOST_LINES = 20_000
 """Findings that are told in a line each; of more, their number is told."""
 
@@ -36,7 +41,7 @@ def page(audit: Audit, dossier: Dossier) -> str:
 <meta http-equiv="Content-Security-Policy" content="{policy}">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <link rel="icon" href="data:,">
-<title>mmsverify audit</title>
+<title>{_title(audit)}</title>
 <style>{style}</style>
 </head>
 <body>
@@ -57,6 +62,11 @@ def page(audit: Audit, dossier: Dossier) -> str:
 @cache
 def _asset(name: str) -> str:
     return (files("mmsverify.report.html") / name).read_text(encoding="ascii")
+
+
+def _title(audit: Audit) -> str:
+    names = [entry.path for entry in audit.inputs]
+    return text(f"Audit of {names[0]}" if len(names) == 1 else f"Audit of {counted(len(names), 'recording')}")
 
 
 def _hash(asset: str) -> str:
@@ -128,9 +138,9 @@ def _devices(findings: Sequence[Numbered], dossier: Dossier) -> str:
         '<p class="tools zoom" hidden><button data-zoom="in">zoom in</button> '
         '<button data-zoom="out">zoom out</button> <button data-zoom="left">earlier</button> '
         '<button data-zoom="right">later</button> '
-        '<button data-zoom="all">all</button> <output></output></p>'
+        '<button data-zoom="all">whole recording</button> <output></output></p>'
     )
-    return f'<section id="devices"><h2>What was known, and when</h2>\n{tools}{shown}</section>'
+    return f'<section id="devices"><h2>State over time</h2>\n{KEY}{tools}{shown}</section>'
 
 
 def _device(incident: Incident, findings: Sequence[Numbered]) -> str:
@@ -171,7 +181,7 @@ def _filters(findings: Sequence[Numbered]) -> str:
     return (
         '<form class="tools filters" hidden role="search"><label>search <input type="search" name="text" '
         f'placeholder="clause, name, message (/)"></label> {boxes}{_choice("device", devices)} '
-        f'{_choice("rule", rules)} <button type="reset">all</button> '
+        f'{_choice("rule", rules)} <button type="reset">clear</button> '
         f"<output>{counted(len(findings), 'finding')}</output></form>\n"
     )
 
@@ -182,14 +192,12 @@ def _choice(name: str, values: Sequence[str]) -> str:
 
 
 def _group(group: Group, dossier: Dossier) -> str:
-    says = dossier.statements.get(group.clause, "")
     device = text(group.device) if group.device else text(group.path)
     title = (
         f"<h3>{device}: {text(group.clause)} <small>{counted(len(group.findings), 'finding')}</small></h3>"
     )
-    about = element("p", text(says), class_="says") if says else ""
     wholes = "".join(whole(each, dossier) for each in group.findings if each.whole)
-    return element("section", f"{title}\n{about}{wholes}{_lines(group)}", class_="group") + "\n"
+    return element("section", f"{title}\n{wholes}{_lines(group)}", class_="group") + "\n"
 
 
 def _lines(group: Group) -> str:

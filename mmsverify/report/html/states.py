@@ -12,7 +12,7 @@ from typing import NamedTuple
 from mmsverify.incident import DeviceLine, Lane
 from mmsverify.report.html.text import element, text
 
-STATES = ("robot state", "mode")
+STATES = ("robot state, reported", "robot state", "mode")
 """The lanes of which the path is drawn."""
 APART, DOWN = 24, 15
 """Pixels: of the circle's radius for each state, and half the height of a box."""
@@ -56,11 +56,13 @@ def _drawn(lane: Lane, odd: Set[int]) -> str:
     boxes = [_box(name, places[name], last=name == last) for name in states]
     width = 2 * round(max(abs(x) + half for x, _, half in places.values()) + 30)
     height = 2 * round(max(abs(y) for _, y, _ in places.values()) + DOWN + 30)
-    return element(
+    drawn = element(
         "svg", "\n".join([*arrows, *boxes]), class_="states", role="img", width=width, height=height,
         viewBox=f"{-width // 2} {-height // 2} {width} {height}",
         aria_label=f"The path through the values of {lane.name}",
     )  # fmt: skip
+    key = "numbers: how often; red: with a finding; bold frame: the last one"
+    return f'<p class="key">{text(lane.name)} ({key})</p>{drawn}'
 
 
 def _places(states: Sequence[str]) -> dict[str, Box]:

@@ -22,6 +22,8 @@ HEIGHT, LANE = 20, 24
 MOST_PARTS = 600
 """Parts of one lane; what is shorter than so small a share of the time is not drawn by itself."""
 MOST_MARKS = 400
+LETTER, WIDTH = 6.2, 1000
+"""Pixels: of a letter, and of a usual timeline."""
 COLOURS = 8
 TELLING = {
     "ROBOT-EXECUTING": "runs", "RUNNING": "runs", "STARTING": "moves", "RESUMING": "moves", "Run": "runs",
@@ -61,14 +63,14 @@ def timeline(line: DeviceLine, findings: Sequence[Numbered]) -> str:
         aria_label=f"Timeline of {line.device}",
     )  # fmt: skip
     about = f"{counted(line.messages, 'message')}, {counted(len(line.gaps), 'gap')}"
-    ends = "".join(f"<span>{told}</span>" for told in (clock(line.begin), about, clock(line.end)))
+    ends = "".join(f"<span>{clock(line.begin + span * quarter // 4)}</span>" for quarter in range(5))
     inside = (
         f'<div class="lane-names">{labels}</div>'
         f'<div class="lanes-window" tabindex="0" role="group" aria-label="Timeline: plus and minus zoom, '
         f'arrows move, 0 shows all">{picture}</div>'
     )
     return element(
-        "div", f'<div class="lanes-box">{inside}</div><p class="ends">{ends}</p>', class_="timeline",
+        "div", f'<div class="lanes-box">{inside}</div><p class="ends">{ends}</p><p class="key">{about}</p>', class_="timeline",
         data_begin=line.begin, data_end=line.end,
     ) + "\n"  # fmt: skip
 
@@ -109,9 +111,14 @@ def _part(part: Part, begin: int, span: int) -> str:
     title = element("title", f"{text(part.words)} from message {part.index}, {instant(part.begin)}")
     shape = f'<rect class="{_colour(part)}" width="100%" height="{HEIGHT}"/>'
     return (
-        f'<svg class="part" {_place(at, wide)} height="{HEIGHT}">{title}{shape}'
+        f'<svg class="part{_tight(part.words, wide)}" {_place(at, wide)} height="{HEIGHT}">{title}{shape}'
         f'<text x="3" y="14">{text(part.words)}</text></svg>'
     )
+
+
+def _tight(words: str, wide: float) -> str:
+    """Whether there is no room for the words: then they are read by pointing at the part."""
+    return " tight" if LETTER * len(words) > wide * WIDTH else ""
 
 
 def _place(at: float, wide: float) -> str:
@@ -154,5 +161,5 @@ def _mark(some: Sequence[Numbered], begin: int, span: int) -> str:
     return (
         f'<a href="#{first.anchor}" class="mark {severity}" aria-label="{label}">'
         f'<svg {_place(at, 0.0)} overflow="visible" class="pin">{title}'
-        f'<path d="M-6 3 h12 l-6 14 z"/></svg></a>'
+        f'<path d="M-6 3 h12 l-6 14 z"/><text x="8" y="14">#{first.number}</text></svg></a>'
     )
