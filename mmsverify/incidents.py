@@ -18,6 +18,7 @@ from pathlib import Path
 from mmsverify.audit.parts import FRAMEWORK, ROBOT, SIGNALS
 from mmsverify.audit.replay import Replay
 from mmsverify.audit.saying import Reader
+from mmsverify.audit.spoken import Listener
 from mmsverify.errors import InputError
 from mmsverify.formats.locations import Location, located
 from mmsverify.formats.mcap import McapTrace, read_trace
@@ -31,6 +32,9 @@ from mmsverify.results import Audit, Finding
 
 __all__ = ["dossier", "reconstruct", "statements", "timeline"]
 
+REPORTED = "robot state, reported"
+REPORTING = frozenset({b"\xa1", b"\xa3"})
+"""What the PDUs begin with that a robot's status comes in: a response, and what nobody has asked for."""
 BEFORE, AFTER = 8, 3
 """So many messages of the device before that of a finding, and after it, are shown."""
 MOST_WINDOWS = 400
@@ -138,6 +142,13 @@ class Span:
     end: int = 0
     messages: int = 0
     links: list[Change] = field(default_factory=list)
+    reported: list[Change] = field(default_factory=list)
+
+    def report(self, message: TraceMessage) -> None:
+        """Take down the robot state that a message reports, whatever is thought of it."""
+        event = Listener().event(message)
+        if event.robot_state and (self.reported[-1].words if self.reported else "") != event.robot_state:
+            self.reported.append(Change(message.index, message.time, event.robot_state))
 
 
 def _devices(
@@ -156,7 +167,8 @@ def _devices(
 
 
 def _line(device: str, span: Span, model: str, lanes: Mapping[str, list[Change]]) -> DeviceLine:
-    shown = [Lane(name, tuple(changes)) for name, changes in lanes.items() if changes]
+    reported = {REPORTED: span.reported, **lanes}
+    shown = [Lane(name, tuple(changes)) for name, changes in reported.items() if changes]
     return DeviceLine(device, model, span.begin, span.end, span.messages, shown, tuple(span.links))
 
 
@@ -171,6 +183,8 @@ def _spans(trace: McapTrace, surroundings: Surroundings) -> dict[str, Span]:
             span = spans[device] = Span(message.time)
         span.end = message.time
         span.messages += 1
+        if message.data[:1] in REPORTING and message.message_encoding == "mms-ber":
+            span.report(message)
         surroundings.pass_by(device, message, span)
     surroundings.end()
     return spans

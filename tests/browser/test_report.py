@@ -129,7 +129,7 @@ def test_a_timeline_zooms_by_keys_and_by_buttons(all_samples: tuple[Path, Audit]
     page.keyboard.press("0")
     assert len(places(page)) == len(whole)
     page.locator("button[data-zoom=in]").click()
-    assert page.locator(".zoom output").inner_text() == "2 times"
+    assert page.locator(".zoom output").inner_text() == "2\u00d7"
     ends = page.locator(".timeline").first.locator(".ends time")
     assert ends.first.inner_text() != ends.last.inner_text()
 

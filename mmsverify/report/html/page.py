@@ -21,9 +21,9 @@ from mmsverify.report.wording import counted
 from mmsverify.results import Audit, AuditedInput
 
 KEY = (
-    '<p class="key">What was known after each message. Solid: known; dashed: one of these; empty: not known; '
-    "a triangle: a finding, with its number; a band: messages are missing. After a finding, what contradicts is "
-    "no longer taken for known.</p>\n"
+    '<p class="key">What was known after each message. Solid: known; dashed: one of these; empty: not '
+    "known; a triangle: a finding, with its number; a band: messages are missing. "
+    "After a finding, what contradicts is no longer taken for known.</p>\n"
 )
 MOST_LINES = 20_000
 """Findings that are told in a line each; of more, their number is told."""
@@ -183,6 +183,7 @@ def _filters(findings: Sequence[Numbered]) -> str:
         f'placeholder="clause, name, message (/)"></label> {boxes}{_choice("device", devices)} '
         f'{_choice("rule", rules)} <button type="reset">clear</button> '
         f"<output>{counted(len(findings), 'finding')}</output></form>\n"
+        '<p class="nothing" hidden>No finding is like that: clear the filters to see all.</p>\n'
     )
 
 

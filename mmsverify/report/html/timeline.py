@@ -69,8 +69,9 @@ def timeline(line: DeviceLine, findings: Sequence[Numbered]) -> str:
         f'<div class="lanes-window" tabindex="0" role="group" aria-label="Timeline: plus and minus zoom, '
         f'arrows move, 0 shows all">{picture}</div>'
     )
+    below = f'<p class="ends">{ends}</p><p class="key">{about}</p>'
     return element(
-        "div", f'<div class="lanes-box">{inside}</div><p class="ends">{ends}</p><p class="key">{about}</p>', class_="timeline",
+        "div", f'<div class="lanes-box">{inside}</div>{below}', class_="timeline",
         data_begin=line.begin, data_end=line.end,
     ) + "\n"  # fmt: skip
 
