@@ -25,7 +25,7 @@ def chart(said: Sequence[Saying], finding: int, related: Set[int]) -> str:
     partners = sorted({each.partner for each in said if each.sender})
     at = {partner: LEFT + BETWEEN * number for number, partner in enumerate(partners)}
     device = LEFT + BETWEEN * (len(partners) - 1) + ACROSS if partners else LEFT
-    width = device + 110 if partners else device + 6 * WIDE
+    width = device + 110 if partners else device + 7 * WIDE
     rows = _rows(said)
     height = TOP + STEP * (len(said) + len(_breaks(said))) + 10
     name = next((each.device for each in said if each.device), "device")

@@ -48,4 +48,5 @@ def clock(time: int | None) -> str:
     if time is None:
         return ""
     told = instant(time)
-    return element("time", told.replace("T", " ").rstrip("Z"), datetime=told)
+    shown = told.replace("T", " ").rstrip("Z").removesuffix("000000")
+    return element("time", shown, datetime=told)
