@@ -22,7 +22,7 @@ def render(checks: Sequence[ModelCheck]) -> str:
 
 
 def _model(check: ModelCheck) -> Iterator[str]:
-    yield f"{printable(check.model)}, {check.variant}: {_summary(check)}"
+    yield f"{printable(check.model)}, {check.variant}: {summary(check)}"
     yield ""
     yield from (f"  {line}" for line in columns([HEAD, *(_row(verdict) for verdict in check.verdicts)]))
     for verdict in check.verdicts:
@@ -44,7 +44,8 @@ def _of_profile(found: ProfileFinding) -> str:
     return f"profile {found.severity}: {found.rule}: {printable(found.message)} ({' '.join(found.clauses)})"
 
 
-def _summary(check: ModelCheck) -> str:
+def summary(check: ModelCheck) -> str:
+    """How many properties have which result."""
     counts = Counter(verdict.result for verdict in check.verdicts)
     parts = [f"{counts[result]} {result}" for result in ("proved", "violated", "unknown") if counts[result]]
     return ", ".join(parts) or "no property"

@@ -57,6 +57,8 @@ ROOTS = {
     "diagrams": ALLOWED.keys() - {"audit", "report"},
     "register": ALLOWED.keys() - {"symbolic", "graph", "report"},
     "manual": ALLOWED.keys() - {"symbolic", "graph"} | {"diagrams", "register"},
+    "notebook": ALLOWED.keys() - {"symbolic", "graph"}
+    | {"auditing", "checking", "diagrams", "explaining", "incidents", "register"},
 }
 COMMAND_LINE = {"cli", "commands", "__main__"}
 
@@ -67,6 +69,7 @@ HOMES = {
     "rich": {"commands"},
     "asn1tools": {"formats"},
     "matplotlib": {"report"},
+    "altair": {"report"},
     "pyarrow": {"report"},
     "dask": {"fleet"},
     "distributed": {"fleet"},

@@ -1,0 +1,63 @@
+"""A finding in words: the clauses as the register has them, and what led to the message."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+from pathlib import Path
+
+from mmsverify.explaining import explain_sample
+from mmsverify.incident import Saying
+from mmsverify.model.load import find, names
+from mmsverify.register.statements import read_statements
+from mmsverify.report.finding_text import as_html, as_text
+from mmsverify.resources import models_dir
+from mmsverify.results import Explanation, Finding, Statement
+
+SAMPLE = "sample"
+
+
+class Explained:
+    """A finding explained; ``text`` is the whole of it."""
+
+    def __init__(self, finding: Finding, text: str, html: str) -> None:
+        self.finding = finding
+        self.text = text
+        self._html = html
+
+    def __str__(self) -> str:
+        return self.text
+
+    __repr__ = __str__
+
+    def _repr_html_(self) -> str:
+        return self._html
+
+
+def explained(finding: Finding, sayings: Sequence[Saying], profile: Path | None, variant: str) -> Explained:
+    """A finding with the statements that it cites, the messages that it refers to, the legal way if any."""
+    cited = [statement for name in finding.clauses if (statement := statements().get(name))]
+    related = [said for said in sayings if said.index in finding.related]
+    itself = next((said for said in sayings if said.index == finding.index), None)
+    way = _way(finding, itself, profile, variant)
+    told = finding, cited, related, itself, way
+    return Explained(finding, as_text(*told), as_html(*told))
+
+
+@lru_cache(maxsize=1)
+def statements() -> dict[str, Statement]:
+    """The statements of all shipped models, by id."""
+    folder = models_dir()
+    return dict(_all(folder))
+
+
+def _all(folder: Path) -> Iterator[tuple[str, Statement]]:
+    for name in names(folder):
+        yield from read_statements(find(name, folder)).items()
+
+
+def _way(finding: Finding, itself: Saying | None, profile: Path | None, variant: str) -> Explanation | None:
+    """Of a sample: how it may follow from the one before."""
+    if itself is None or itself.title != SAMPLE or itself.fault:
+        return None
+    return explain_sample(Path(finding.path), itself.index, profile=profile, variant=variant)

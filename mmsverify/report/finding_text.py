@@ -1,0 +1,86 @@
+"""One finding explained, as text and as a piece of HTML: the same facts in the same order."""
+
+from __future__ import annotations
+
+import textwrap
+from collections.abc import Iterator, Sequence
+
+from mmsverify.incident import Saying
+from mmsverify.report.audit_text import heading
+from mmsverify.report.carried import in_short
+from mmsverify.report.explanation_text import render
+from mmsverify.report.markup import code, element, folding, joined, text, word
+from mmsverify.report.wording import assignments, instant, printable
+from mmsverify.results import Explanation, Finding, Statement
+
+WIDTH = 96
+Told = tuple[str, list[str]]
+"""A label, and the lines that belong to it."""
+
+
+def as_text(
+    finding: Finding,
+    cited: Sequence[Statement],
+    related: Sequence[Saying],
+    itself: Saying | None,
+    way: Explanation | None,
+) -> str:
+    """The finding for a terminal; ends with a line feed."""
+    lines = [heading(finding), printable(finding.message)]
+    for label, told in _facts(finding, cited, related, itself, way):
+        lines += ["", f"{label}:"]
+        for line in told:
+            lines += textwrap.wrap(line, WIDTH, initial_indent="  ", subsequent_indent="    ")
+    return "\n".join(lines) + "\n"
+
+
+def as_html(
+    finding: Finding,
+    cited: Sequence[Statement],
+    related: Sequence[Saying],
+    itself: Saying | None,
+    way: Explanation | None,
+) -> str:
+    """The finding as a piece of a page."""
+    place = "" if finding.index is None else f" #{finding.index}"
+    time = "" if finding.time is None else f" {instant(finding.time)}"
+    parts = [element("p", word(finding.severity), " ", code(finding.rule), place + time)]
+    parts.append(element("p", element("b", finding.message)))
+    for label, told in _facts(finding, cited, related, itself, way):
+        listed = element("ul", *(element("li", text(line)) for line in told))
+        parts.append(folding(label, listed) if label == "known before" else joined([label, listed]))
+    return element("div", *parts)
+
+
+def _facts(
+    finding: Finding,
+    cited: Sequence[Statement],
+    related: Sequence[Saying],
+    itself: Saying | None,
+    way: Explanation | None,
+) -> Iterator[Told]:
+    if itself is not None:
+        yield "the message", [_said(itself)]
+    yield "clauses broken", [_clause(each) for each in cited] or [" ".join(finding.clauses)]
+    if finding.readings:
+        yield "read as", [" ".join(finding.readings)]
+    if finding.observed:
+        yield "observed", [printable(finding.observed)]
+    if finding.expected:
+        yield "would have been legal", [" or ".join(map(printable, finding.expected))]
+    if related:
+        yield "what it refers to", [_said(each) for each in related]
+    if way is not None:
+        yield "how a sample may follow", [line.strip() for line in render(way).splitlines()[1:]]
+    if finding.before:
+        yield "known before", assignments(finding.before)
+
+
+def _clause(statement: Statement) -> str:
+    return printable(f"{statement.id} ({statement.clause}): {statement.says}")
+
+
+def _said(said: Saying) -> str:
+    who = {"client": f"{said.partner} to {said.device}", "server": f"{said.device} to {said.partner}"}
+    told = f"#{said.index} {instant(said.time)} {who.get(said.sender, said.device)}: {said.title}"
+    return " ".join(part for part in (printable(told), in_short(said)) if part)
