@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
+from warnings import catch_warnings, simplefilter
 
 import altair as alt
 
@@ -48,7 +49,10 @@ def timeline(devices: Sequence[DeviceLine], findings: Sequence[Finding], title: 
     begin = min(line.begin for line in devices)
     span = begin, max(begin + MILLION, *(line.end for line in devices))
     panels = [_panel(line, [f for f in findings if f.vmd == line.device], span) for line in devices]
-    chart = alt.vconcat(*panels, spacing=22).resolve_scale(x="shared").configure_view(stroke="#ccd2da")
+    with catch_warnings():
+        simplefilter("ignore", UserWarning)  # that all panels are moved by one selection is meant
+        chart = alt.vconcat(*panels, spacing=18).resolve_scale(x="shared")
+    chart = chart.configure_view(stroke="#ccd2da")
     chart = chart.configure_axis(grid=False, labelLimit=230, labelFontSize=11)
     return Picture(chart, title)
 
@@ -64,6 +68,7 @@ def _panel(
         text=printable(line.device) or "?",
         subtitle=f"{line.model}, {counted(line.messages, 'message')}",
         anchor="start",
+        frame="group",
     )
     layers = [*_bar_layers(bars, lanes, span), *_gap_layers(line), *_mark_layers(marks, lanes)]
     return alt.layer(*layers, title=heading).properties(width=WIDTH, height=ROW * len(lanes))
@@ -123,7 +128,7 @@ def _bar(lane: Lane, change: Change, end: int, words: str, span: tuple[int, int]
 def _bar_layers(bars: Sequence[Row], lanes: Sequence[str], span: tuple[int, int]) -> list[alt.Chart]:
     zoom = alt.selection_interval(name="zoom", bind="scales", encodings=["x"])
     x = alt.X("begin:T", title="UTC").scale(type="utc", domain=[time / MILLION for time in span], nice=False)
-    axis = alt.Axis(labelExpr=AS_FINE_AS_NEEDED, tickCount=8, labelOverlap=True)
+    axis = alt.Axis(labelExpr=AS_FINE_AS_NEEDED, tickCount=8, labelOverlap=True, labelFlush=False)
     base = alt.Chart(alt.InlineData(values=list(bars))).encode(x=x.axis(axis), y=_lane(lanes))
     told = [alt.Tooltip(f"{name}:N") for name in ("lane", "words", "since", "until", "message")]
     drawn = base.mark_bar(height=ROW - 4, stroke="#ffffff", strokeWidth=0.5)

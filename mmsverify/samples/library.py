@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mmsverify.samples import annex_a, faults, press, shift, signals
+from mmsverify.samples import annex_a, faults, firmware, incident, press, shift, signals
 from mmsverify.samples.recording import Recording
 
 
@@ -27,6 +27,7 @@ def example_of_the_standard() -> Recording:
 
 
 PRESS = {"model": "vr-template", "sub_action_status": "11-14"}
+SERVER = {"model": "modbus-signals", "dedicated": "[9, 10]"}
 
 SAMPLES: Mapping[str, Sample] = {
     "annex-a.mcap": Sample(example_of_the_standard),
@@ -36,9 +37,10 @@ SAMPLES: Mapping[str, Sample] = {
     "two-clients.mcap": Sample(faults.two_clients, {"model": "mms-robot", "associations": "multiple"}),
     "press-day.mcap": Sample(press.day, PRESS),
     "faulty-press.mcap": Sample(press.faulty_press, PRESS),
-    "faulty-signals.mcap": Sample(
-        signals.faulty_signals, {"model": "modbus-signals", "dedicated": "[9, 10]"}
-    ),
+    "faulty-signals.mcap": Sample(signals.faulty_signals, SERVER),
+    "cell-incident.mcap": Sample(incident.cell_incident, SERVER),
+    "firmware-4.2.1.mcap": Sample(firmware.before),
+    "firmware-4.3.0.mcap": Sample(firmware.after),
 }
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, BinaryIO, Literal
 
 from mmsverify.formats import vr
@@ -29,6 +29,14 @@ class Recording:
         self.vmd = vmd
         self._time = BEGIN
         self._messages: list[tuple[int, Channel, bytes]] = []
+
+    @classmethod
+    def of(cls, name: str, recordings: Iterable[Recording]) -> Recording:
+        """What several have heard, in the order of the times."""
+        whole = cls(name)
+        heard = [message for each in recordings for message in each.messages]
+        whole._messages = sorted(heard, key=lambda message: message[0])
+        return whole
 
     @property
     def count(self) -> int:

@@ -17,8 +17,8 @@ DEDICATED = [9, 10]
 class Talk:
     """Two clients and the server; each transaction has the next number of its connection."""
 
-    def __init__(self) -> None:
-        self.recording = Recording("robot4")
+    def __init__(self, server: str = "robot4") -> None:
+        self.recording = Recording(server)
         self._transactions = {LINE: 0, PANEL: 0}
 
     def opens(self, client: str) -> None:

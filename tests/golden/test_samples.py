@@ -56,6 +56,21 @@ FINDINGS: dict[str, list[Told]] = {
         (17, "error", "access.not-inputs", ("M-2.3.1-1", "M-2.3.1-2", "M-2.3.1-3")),
         (19, "error", "modbus.unasked", ("M-2-S3b", "M-2.2-8", "M-2.2-5")),
     ],
+    "cell-incident.mcap": [
+        (246, "error", "access.dedicated", ("M-2.3.2-2", "M-2.3.2-3")),
+        (261, "error", "home.while-running", ("V-CHK-3", "V-CHK-2", "V-DO-01", "V-CMD-01", "V-CTL02-N")),
+        (314, "error", "attributes.state", ("R-7.3.3.9-1", "R-7.4.2.2-4")),
+        (431, "error", "vmd-reset.intervention", ("R-5.3.1.3.3.13-2",)),
+    ],
+    "firmware-4.2.1.mcap": [
+        (43, "error", "select.selected-active", ("R-7.4.4.2-e",)),
+        (53, "error", "start.not-selected", ("R-7.3.3.3.3-d0", "R-5.3.1.3.3.7-2")),
+        (69, "error", "vmd-reset.intervention", ("R-5.3.1.3.3.13-2",)),
+    ],
+    "firmware-4.3.0.mcap": [
+        (65, "error", "attributes.state", ("R-7.3.3.9-1", "R-7.4.2.2-4")),
+        (67, "error", "vmd-reset.intervention", ("R-5.3.1.3.3.13-2",)),
+    ],
     "press-day.mcap": [],
     "two-clients.mcap": [(29, "error", "stop.without-control", ("R-7.3.3.4.1-b",))],
 }
