@@ -1,4 +1,4 @@
-"""``mmsverify timeline``: draw what a controller's cells held over time."""
+"""``mmsverify timeline``: draw what is known of the devices of a recording over time."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from mmsverify.commands.output import emit, require_writable
 
 
 def timeline(
-    trace: Annotated[Path, typer.Argument(metavar="TRACE", help="An MCAP file with samples of VR cells.")],
+    trace: Annotated[Path, typer.Argument(metavar="TRACE", help="An MCAP file.")],
     *,
     profile: Profile = None,
     variant: Variant = "repaired",
     output: Output = None,
     quiet: Quiet = False,  # noqa: ARG001 (every command takes it; this one has nothing to be quiet about)
 ) -> int:
-    """Draw mode, status, commands and findings of each controller over time, as SVG."""
+    """Draw what is known of each device over time, with findings and gaps, as SVG."""
     require_writable(output, [trace])
     from mmsverify.timelines import timeline_svg
 

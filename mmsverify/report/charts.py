@@ -93,25 +93,35 @@ def _bars(lane: Lane, end: int, span: tuple[int, int]) -> Iterator[Row]:
     """The times in which a lane held a value; the shortest ones drawn together."""
     point = (span[1] - span[0]) / WIDTH
     ends = [*(change.time for change in lane.changes[1:]), end]
+    rooms = _rooms(lane, span[1])
     crowd: list[tuple[Change, int]] = []
-    for change, until in zip(lane.changes, ends, strict=True):
+    for change, until, room in zip(lane.changes, ends, rooms, strict=True):
         if until - change.time < NARROW * point and len(lane.changes) > WIDTH // 4:
             crowd.append((change, until))
             continue
         yield from _together(lane, crowd, span)
         crowd = []
         if change.words:
-            yield _bar(lane, change, until, printable(change.words), span)
+            yield _bar(lane, change, until, printable(change.words), span=span, room=room)
     yield from _together(lane, crowd, span)
 
 
 def _together(lane: Lane, crowd: Sequence[tuple[Change, int]], span: tuple[int, int]) -> Iterator[Row]:
     if crowd:
-        yield _bar(lane, crowd[0][0], crowd[-1][1], f"{len(crowd)} changes", span)
+        yield _bar(lane, crowd[0][0], crowd[-1][1], f"{len(crowd)} changes", span=span)
 
 
-def _bar(lane: Lane, change: Change, end: int, words: str, span: tuple[int, int]) -> Row:
-    letters = int((end - change.time) / (span[1] - span[0]) * WIDTH / LETTER)
+def _rooms(lane: Lane, end: int) -> list[int]:
+    """For each change of a lane, until when its word may be written: up to the next one that has words."""
+    rooms: list[int] = []
+    for change in reversed(lane.changes):
+        rooms.append(end)
+        end = change.time if change.words else end
+    return rooms[::-1]
+
+
+def _bar(lane: Lane, change: Change, end: int, words: str, *, span: tuple[int, int], room: int = 0) -> Row:
+    letters = int((max(end, room) - change.time) / (span[1] - span[0]) * WIDTH / LETTER)
     return {
         "lane": printable(lane.name),
         "words": words,

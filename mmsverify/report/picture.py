@@ -9,6 +9,7 @@ from __future__ import annotations
 import base64
 import io
 import json
+import re
 from pathlib import Path
 from typing import Any, Literal, get_args
 
@@ -18,7 +19,7 @@ from mmsverify.errors import UsageError
 
 Format = Literal["svg", "png", "pdf", "json"]
 FORMATS: tuple[Format, ...] = get_args(Format)
-SCALE = 1.5
+SCALE = 1.25
 """Points of a stored picture for each point of the chart."""
 KINDS = ("application/vnd.vegalite.v6+json", "application/vnd.vegalite.v5+json")
 """Under both names, as no viewer knows the one only: what is drawn here is the same in both versions."""
@@ -32,7 +33,7 @@ class Picture:
         self.title = title
 
     def svg(self) -> str:
-        """The static picture as SVG."""
+        """The static picture as SVG; the same chart gives the same characters."""
         return self._drawn("svg").decode()
 
     def save(self, path: str | Path) -> Path:
@@ -53,7 +54,7 @@ class Picture:
         file = io.StringIO() if kind == "svg" else io.BytesIO()
         self.chart.save(file, format=kind, scale_factor=SCALE if kind == "png" else 1)
         drawn = file.getvalue()
-        return drawn.encode() if isinstance(drawn, str) else drawn
+        return _numbered(drawn).encode() if isinstance(drawn, str) else drawn
 
     def _described(self) -> dict[str, Any]:
         described: dict[str, Any] = self.chart.to_dict()
@@ -69,3 +70,13 @@ class Picture:
 
     def __repr__(self) -> str:
         return f"<{self.title}>"
+
+
+def _numbered(svg: str) -> str:
+    """The clipping paths counted from 0: they go on counting from one picture of a process to the next."""
+    names: dict[str, str] = {}
+    return re.sub(
+        r'(?:(?<=id=")|(?<=url\(#))clip\d+',
+        lambda found: names.setdefault(found[0], f"clip{len(names)}"),
+        svg,
+    )
