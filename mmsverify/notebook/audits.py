@@ -15,7 +15,7 @@ import pandas as pd
 
 from mmsverify.errors import UsageError
 from mmsverify.incident import DeviceLine, Saying
-from mmsverify.incidents import reconstruct, timeline
+from mmsverify.incidents import BEFORE, reconstruct, timeline
 from mmsverify.notebook.explaining import Explained, explained
 from mmsverify.notebook.messages import messages, narrowed
 from mmsverify.report.audit_text import summary
@@ -158,7 +158,8 @@ class NotebookAudit:
         found = self.finding(around)
         sayings = self.surroundings(found)
         beside = [each for each in self._found if each.path == found.path]
-        return drawn(sayings, beside, f"messages around #{found.index}")
+        apart = [said.index for said in sayings].index(found.index or 0) - BEFORE
+        return drawn(sayings, beside, f"messages around #{found.index}", apart=max(0, apart))
 
     def surroundings(self, around: Which) -> list[Saying]:
         """The messages around a finding, and those that it refers to, in words."""

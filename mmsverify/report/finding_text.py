@@ -14,6 +14,7 @@ from mmsverify.report.wording import assignments, instant, printable
 from mmsverify.results import Explanation, Finding, Statement
 
 WIDTH = 96
+BEFORE = "known before"
 Told = tuple[str, list[str]]
 """A label, and the lines that belong to it."""
 
@@ -48,7 +49,12 @@ def as_html(
     parts.append(element("p", element("b", finding.message)))
     for label, told in _facts(finding, cited, related, itself, way):
         listed = element("ul", *(element("li", text(line)) for line in told))
-        parts.append(folding(label, listed) if label == "known before" else joined([label, listed]))
+        if label == BEFORE:
+            parts.append(folding(label, listed))
+        elif len(told) == 1:
+            parts.append(element("p", element("i", f"{label}: "), told[0]))
+        else:
+            parts.append(joined([element("i", label), listed]))
     return element("div", *parts)
 
 
@@ -73,7 +79,7 @@ def _facts(
     if way is not None:
         yield "how a sample may follow", [line.strip() for line in render(way).splitlines()[1:]]
     if finding.before:
-        yield "known before", assignments(finding.before)
+        yield BEFORE, assignments(finding.before)
 
 
 def _clause(statement: Statement) -> str:

@@ -14,7 +14,7 @@ RED, AMBER, GREY, GREEN = "#c62828", "#b26a00", "#5f6368", "#2e7d32"
 COLOURS = {
     "error": RED, "warning": AMBER, "note": GREY, "violated": RED, "unknown": AMBER, "proved": GREEN,
 }  # fmt: skip
-CELL = "text-align:left;vertical-align:top;overflow-wrap:anywhere"
+CELL = "text-align:left;vertical-align:top;overflow-wrap:break-word"
 
 
 class Markup(str):

@@ -21,13 +21,18 @@ from mmsverify.results import Finding
 WIDTH, ROW, TIMES = 640, 24, 0.46
 """Points: the width and the height of a row; how far left of the first line the times stand, in columns."""
 INK, LINE = "#2f5d83", "#9aa5b1"
-LONGEST, MOST_VALUES, MOST_OCTETS = 60, 3, 64
+LONGEST, MOST_VALUES, MOST_OCTETS = 46, 3, 64
 """Letters beside a title, values among them, and octets that are shown."""
 Row = dict[str, Any]
 
 
-def sequence(sayings: Sequence[Saying], findings: Sequence[Finding], title: str) -> Picture:
-    """The messages of one device in their order; those with findings in the colour of the worst one."""
+def sequence(
+    sayings: Sequence[Saying], findings: Sequence[Finding], title: str, *, apart: int = 0
+) -> Picture:
+    """The messages of one device in their order; those with findings in the colour of the worst one.
+
+    Before and after each of the first ``apart`` messages others of the device may be left out.
+    """
     columns = _columns(sayings)
     worst = {f.index: f for f in sorted(findings, key=lambda f: f.severity != "error", reverse=True)}
     rows = [
@@ -35,7 +40,7 @@ def sequence(sayings: Sequence[Saying], findings: Sequence[Finding], title: str)
         for at, said in enumerate(sayings)
     ]
     layers = [*_lifelines(columns, sayings), *_pairs(rows, sayings), *_messages(rows)]
-    layers += _skips(sayings)
+    layers += _skips(sayings, apart)
     chart = alt.layer(*layers).properties(width=WIDTH, height=ROW * (len(rows) + 1))
     return Picture(chart.configure_view(stroke=None), title)
 
@@ -122,6 +127,11 @@ def _messages(rows: Sequence[Row]) -> Iterator[alt.Chart]:
         y=_y(), color=alt.Color("colour:N").scale(None), tooltip=told
     )
     spoken = base.transform_filter(alt.FieldEqualPredicate(field="alone", equal=False))
+    words: Row = {"baseline": "bottom", "dy": -2, "fontSize": 11}
+    halo = alt.Chart(alt.InlineData(values=[row for row in rows if not row["alone"]])).encode(y=_y())
+    halo = halo.mark_text(**words, stroke="#ffffff", strokeWidth=4)
+    # Under the arrows, and over the lines of others.
+    yield halo.encode(x=alt.X("middle:Q"), text="said:N")
     yield spoken.mark_rule(strokeWidth=1.5).encode(x=alt.X("from:Q"), x2="to:Q")
     for right in (True, False):
         side = spoken.transform_filter(alt.FieldEqualPredicate(field="right", equal=right))
@@ -130,10 +140,6 @@ def _messages(rows: Sequence[Row]) -> Iterator[alt.Chart]:
         yield head.encode(x=alt.X("to:Q"))
     alone = base.transform_filter(alt.FieldEqualPredicate(field="alone", equal=True))
     yield alone.mark_point(filled=True, size=40, opacity=1).encode(x=alt.X("to:Q"))
-    words: Row = {"baseline": "bottom", "dy": -2, "fontSize": 11}
-    halo = alt.Chart(alt.InlineData(values=[row for row in rows if not row["alone"]])).encode(y=_y())
-    halo = halo.mark_text(**words, stroke="#ffffff", strokeWidth=4)
-    yield halo.encode(x=alt.X("middle:Q"), text="said:N")
     yield spoken.mark_text(**words).encode(x=alt.X("middle:Q"), text="said:N")
     yield alone.mark_text(align="right", dx=-8, fontSize=11).encode(x=alt.X("to:Q"), text="said:N")
     left = base.mark_text(align="left", fontSize=10).encode(x=alt.datum(-TIMES))
@@ -141,11 +147,11 @@ def _messages(rows: Sequence[Row]) -> Iterator[alt.Chart]:
     yield left.mark_text(align="left", fontSize=10, dx=74).encode(text="index:N")
 
 
-def _skips(sayings: Sequence[Saying]) -> Iterator[alt.Chart]:
+def _skips(sayings: Sequence[Saying], apart: int) -> Iterator[alt.Chart]:
     """Where time passes unseen: messages of the device between two that are shown are left out."""
     rows = [
         {"row": at + 0.42}
-        for at, (said, after) in enumerate(pairwise(sayings))
+        for at, (said, after) in enumerate(pairwise(sayings[: apart + 1]))
         if after.index > said.index + 1
     ]
     if rows:
