@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from functools import lru_cache
+from collections.abc import Sequence
 from pathlib import Path
 
 from mmsverify.explaining import explain_sample
 from mmsverify.incident import Saying
-from mmsverify.model.load import find, names
-from mmsverify.register.statements import read_statements
+from mmsverify.incidents import statements
 from mmsverify.report.finding_text import as_html, as_text
-from mmsverify.resources import models_dir
-from mmsverify.results import Explanation, Finding, Statement
+from mmsverify.results import Audit, Explanation, Finding
 
 SAMPLE = "sample"
 
@@ -36,24 +33,12 @@ class Explained:
 
 def explained(finding: Finding, sayings: Sequence[Saying], profile: Path | None, variant: str) -> Explained:
     """A finding with the statements that it cites, the messages that it refers to, the legal way if any."""
-    cited = [statement for name in finding.clauses if (statement := statements().get(name))]
+    cited = statements(Audit([], [finding]))
     related = [said for said in sayings if said.index in finding.related]
     itself = next((said for said in sayings if said.index == finding.index), None)
     way = _way(finding, itself, profile, variant)
     told = finding, cited, related, itself, way
     return Explained(finding, as_text(*told), as_html(*told))
-
-
-@lru_cache(maxsize=1)
-def statements() -> dict[str, Statement]:
-    """The statements of all shipped models, by id."""
-    folder = models_dir()
-    return dict(_all(folder))
-
-
-def _all(folder: Path) -> Iterator[tuple[str, Statement]]:
-    for name in names(folder):
-        yield from read_statements(find(name, folder)).items()
 
 
 def _way(finding: Finding, itself: Saying | None, profile: Path | None, variant: str) -> Explanation | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from mmsverify.incident import Saying
 from mmsverify.report.audit_text import heading
@@ -11,7 +11,7 @@ from mmsverify.report.carried import in_short
 from mmsverify.report.explanation_text import render
 from mmsverify.report.markup import code, element, folding, joined, text, word
 from mmsverify.report.wording import assignments, instant, printable
-from mmsverify.results import Explanation, Finding, Statement
+from mmsverify.results import Explanation, Finding
 
 WIDTH = 96
 BEFORE = "known before"
@@ -21,7 +21,7 @@ Told = tuple[str, list[str]]
 
 def as_text(
     finding: Finding,
-    cited: Sequence[Statement],
+    cited: Mapping[str, str],
     related: Sequence[Saying],
     itself: Saying | None,
     way: Explanation | None,
@@ -37,7 +37,7 @@ def as_text(
 
 def as_html(
     finding: Finding,
-    cited: Sequence[Statement],
+    cited: Mapping[str, str],
     related: Sequence[Saying],
     itself: Saying | None,
     way: Explanation | None,
@@ -60,16 +60,16 @@ def as_html(
 
 def _facts(
     finding: Finding,
-    cited: Sequence[Statement],
+    cited: Mapping[str, str],
     related: Sequence[Saying],
     itself: Saying | None,
     way: Explanation | None,
 ) -> Iterator[Told]:
     if itself is not None:
         yield "the message", [_said(itself)]
-    yield "clauses broken", [_clause(each) for each in cited] or [" ".join(finding.clauses)]
+    yield "clauses broken", [_clause(each, cited) for each in finding.clauses]
     if finding.readings:
-        yield "read as", [" ".join(finding.readings)]
+        yield "read as", [_clause(each, cited) for each in finding.readings]
     if finding.observed:
         yield "observed", [printable(finding.observed)]
     if finding.expected:
@@ -82,11 +82,14 @@ def _facts(
         yield BEFORE, assignments(finding.before)
 
 
-def _clause(statement: Statement) -> str:
-    return printable(f"{statement.id} ({statement.clause}): {statement.says}")
+def _clause(name: str, cited: Mapping[str, str]) -> str:
+    says = cited.get(name, "")
+    return printable(f"{name}: {says}" if says else name)
 
 
 def _said(said: Saying) -> str:
     who = {"client": f"{said.partner} to {said.device}", "server": f"{said.device} to {said.partner}"}
     told = f"#{said.index} {instant(said.time)} {who.get(said.sender, said.device)}: {said.title}"
+    if said.about and said.about not in in_short(said):
+        told += f" ({said.about})"
     return " ".join(part for part in (printable(told), in_short(said)) if part)

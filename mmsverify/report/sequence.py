@@ -76,11 +76,11 @@ def _row(at: int, said: Saying, carried: str, columns: Mapping[str, int], found:
 
 
 def _carried(said: Saying, before: Sequence[Saying]) -> str:
-    """The first values of a message, as far as they fit beside its title; of a sample, what has changed."""
+    """What a message is about, or its first values; of a sample, what has changed; cut off if long."""
     held = [pair for last in before[-1:] for pair in last.fields]
     told = carried(said, held=held)[:MOST_VALUES]
     named = [value if said.sender else f"{name} = {value}" for name, value in told if value]
-    text = said.fault or ", ".join(named)
+    text = said.fault or said.about or ", ".join(named)
     return text if len(text) <= LONGEST else f"{text[:LONGEST]}…"
 
 

@@ -57,7 +57,7 @@ ROOTS = {
     "register": ALLOWED.keys() - {"symbolic", "graph", "report"},
     "manual": ALLOWED.keys() - {"symbolic", "graph"} | {"diagrams", "register"},
     "notebook": ALLOWED.keys() - {"symbolic", "graph"}
-    | {"auditing", "checking", "diagrams", "explaining", "incidents", "register"},
+    | {"auditing", "checking", "diagrams", "explaining", "incidents"},
 }
 COMMAND_LINE = {"cli", "commands", "__main__"}
 
