@@ -21,8 +21,9 @@ Format = Literal["svg", "png", "pdf", "json"]
 FORMATS: tuple[Format, ...] = get_args(Format)
 SCALE = 1.25
 """Points of a stored picture for each point of the chart."""
-KINDS = ("application/vnd.vegalite.v6+json", "application/vnd.vegalite.v5+json")
-"""Under both names, as no viewer knows the one only: what is drawn here is the same in both versions."""
+KINDS = {6: "application/vnd.vegalite.v6+json", 5: "application/vnd.vegalite.v5+json"}
+"""Under both names, as some viewers know only one: what is drawn here is the same in both versions."""
+SCHEMA = "https://vega.github.io/schema/vega-lite/v{}.json"
 
 
 class Picture:
@@ -65,7 +66,7 @@ class Picture:
         return {
             "text/plain": repr(self),
             "image/png": base64.b64encode(self._drawn("png")).decode("ascii"),
-            **dict.fromkeys(KINDS, described),
+            **{kind: {**described, "$schema": SCHEMA.format(version)} for version, kind in KINDS.items()},
         }
 
     def __repr__(self) -> str:

@@ -11,6 +11,7 @@ from xml.etree import ElementTree as ET
 
 import pandas as pd
 import pytest
+import vl_convert
 
 import mmsverify as mv
 from mmsverify.errors import UsageError
@@ -161,6 +162,14 @@ def test_a_chart_holds_a_static_picture_and_one_that_moves() -> None:
     bundle = audited("faulty-press").timeline()._repr_mimebundle_()
     assert {"image/png", "application/vnd.vegalite.v5+json", "text/plain"} <= bundle.keys()
     assert "text/html" not in bundle  # which would fetch a script from elsewhere
+
+
+def test_a_chart_is_the_same_in_old_viewers() -> None:
+    described = audited("faulty-press").timeline().chart.to_dict()
+    del described["$schema"]
+    versions = vl_convert.get_vegalite_versions()
+    drawn = [vl_convert.vegalite_to_svg(described, vl_version=each) for each in (versions[0], versions[-1])]
+    assert words(drawn[0]) == words(drawn[1])
 
 
 @pytest.mark.parametrize("ending", ["svg", "png", "pdf", "json"])
