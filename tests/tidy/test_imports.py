@@ -50,6 +50,7 @@ ROOTS = {
     "auditing": ALLOWED.keys() - {"symbolic", "graph", "report"},
     "explaining": ALLOWED.keys() - {"symbolic", "graph", "report", "fleet"},
     "incidents": ALLOWED.keys() - {"symbolic", "graph", "report", "fleet"} | {"register"},
+    "annotating": ALLOWED.keys() - {"symbolic", "graph", "fleet"} | {"incidents"},
     "timelines": ALLOWED.keys() - {"symbolic", "graph"} | {"auditing", "incidents"},
     "checking": ALLOWED.keys() - {"graph", "report"},
     "faults": ALLOWED.keys() - {"audit", "graph", "report"} | {"checking"},
