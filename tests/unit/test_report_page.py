@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from itertools import pairwise
 
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from report_samples import AUDIT, READ, SELECT
 
@@ -25,6 +25,7 @@ def changes(times: list[int], words: tuple[str, ...] = ("A", "B", "")) -> list[C
     return [Change(number, time, words[number % len(words)]) for number, time in enumerate(times)]
 
 
+@settings(deadline=None)
 @given(TIMES, st.integers(0, 500))
 def test_a_thinned_lane_covers_the_same_time_and_keeps_what_is_long(times: list[int], least: int) -> None:
     told = changes(times)
