@@ -284,3 +284,75 @@ class Explanation:
     way: tuple[PathStep, ...] | None
     findings: tuple[Finding, ...] = ()
     first: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Evidence:
+    """One message that speaks against an event: its index, what it says, its request's index."""
+
+    index: int
+    words: str
+    asked: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Ground:
+    """Earlier messages that exclude an event together, whatever was answered and shown by all others.
+
+    ``irreducible``: none of them can be left out; each was, and then the event was no contradiction. Where it
+    is false, the search was broken off, and fewer might do. Of a ``stretch`` all messages from the first to
+    the last count: of samples, none by itself says what the next ones go by.
+    """
+
+    messages: tuple[Evidence, ...]
+    irreducible: bool
+    stretch: bool = False
+
+    @property
+    def earliest(self) -> int | None:
+        """The index of the first of these messages; ``None`` where no earlier message is needed."""
+        return min((each.index for each in self.messages), default=None)
+
+
+@dataclass(frozen=True, slots=True)
+class Edit:
+    """One message said otherwise: one changed, one service (or unasked message) put in, or one left out.
+
+    ``index``: the message that is changed or left out (its request with it, ``asked``), or before which
+    something is put in. ``words`` tell what is said instead; ``said`` are the topics and octets of the
+    messages that are put in, or in place of the changed one.
+    """
+
+    kind: Literal["change", "insert", "drop"]
+    index: int
+    words: str
+    said: tuple[tuple[str, bytes], ...] = ()
+    asked: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Account:
+    """Why a finding stands, and what would have been legal; each part found by replaying, none guessed.
+
+    ``event`` is the message in words, ``statements`` are those of the finding's clauses, in their order.
+    ``grounds`` each exclude the event by themselves, the smallest first; none where it was not found out, and
+    ``remarks`` then say why. ``right`` is what would have been legal at the event, and ``later`` are the
+    messages after it that would then have been wrong. ``edits`` each make a legal conversation, the nearest
+    first, at most one of each sort: the event said otherwise, something put in before it, one of the messages
+    that exclude it said otherwise, the event left out.
+    """
+
+    finding: Finding
+    event: str
+    asked: int | None
+    statements: tuple[Statement, ...]
+    grounds: tuple[Ground, ...] = ()
+    right: Edit | None = None
+    later: tuple[int, ...] = ()
+    edits: tuple[Edit, ...] = ()
+    remarks: tuple[str, ...] = ()
+
+    @property
+    def earliest(self) -> int | None:
+        """The earliest message of the smallest set that excludes the event."""
+        return self.grounds[0].earliest if self.grounds else None

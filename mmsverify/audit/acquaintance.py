@@ -18,12 +18,12 @@ NAMING = ("pi", "selected_is", "controller_is", "controlling")
 
 
 class Acquaintance:
-    """The names known, and whether any other can be excluded."""
+    """The names known, and whether any other can be excluded: ``closed``."""
 
     def __init__(self, predefined: Iterable[str]) -> None:
         self._known = set(predefined)
         self._expected: list[str] = []
-        self._closed = False
+        self.closed = False
         self._whole: bool | None = None
 
     def begin(self, *, opening: bool) -> None:
@@ -48,15 +48,15 @@ class Acquaintance:
         if call.bindings.get("shown_local"):
             self.lose()
         elif call.bindings.get("shown_robot") == "ROBOT-IDLE":
-            self._closed = True
+            self.closed = True
 
     def lose(self) -> None:
         """Something may have been created unseen."""
-        self._closed = self._whole = False
+        self.closed = self._whole = False
 
     def stranger(self, call: Call) -> str:
         """The rule that is broken where the service acts on a program invocation that nothing has shown."""
         known = {*self._known, *self._expected}
-        if not self._closed or call.service not in ACTING or call.bindings.get("pi") in known:
+        if not self.closed or call.service not in ACTING or call.bindings.get("pi") in known:
             return ""
         return "program.never-shown" if self._whole else "program.not-shown-yet"

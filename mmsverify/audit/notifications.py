@@ -68,7 +68,12 @@ class Notifications:
             return
         if pdu.kind == "confirmed-ResponsePDU":
             self._performed(association, asked, pdu, listens)
-        for enrollment in self._enrolled.values() if disturbed else ():
+        if disturbed:
+            self.doubt()
+
+    def doubt(self) -> None:
+        """Something is not known that may have been the cause of a notification, or not."""
+        for enrollment in self._enrolled.values():
             enrollment.doubt()
             self._belief.unwatch(enrollment.slot)
 

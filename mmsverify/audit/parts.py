@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeVar
 
 from mmsverify.audit.device import Device
 from mmsverify.audit.learning.lasting import Lasting
@@ -25,6 +25,7 @@ from mmsverify.resources import models_dir
 ROBOT, FRAMEWORK, SIGNALS = "mms-robot", "vr-template", "modbus-signals"
 PROVED = "repaired"
 Tables = Mapping[str, Mapping[str, Any]]
+D = TypeVar("D", bound=Device)
 
 
 class Parts:
@@ -58,6 +59,17 @@ class Parts:
         self, place: Place, base_only: frozenset[str], blind: Sequence[tuple[int, int]], history: History
     ) -> Device:
         """A robot of which the recording has not shown anything yet; the rest as in `Device`."""
+        return self.device_of(Device, place, base_only, blind, history)
+
+    def device_of(
+        self,
+        kind: type[D],
+        place: Place,
+        base_only: frozenset[str],
+        blind: Sequence[tuple[int, int]],
+        history: History,
+    ) -> D:
+        """The same, of a class that is more than a `Device`."""
         belief = Belief(self.model, self._facts(), self._proved())
         if not belief.states:
             raise ProfileError(
@@ -65,7 +77,7 @@ class Parts:
                 place=self._path,
                 cure="run mmsverify check mms-robot with this profile: it names the clause",
             )
-        return Device(place, belief, self._arms(), base_only=base_only, blind=blind, history=history)
+        return kind(place, belief, self._arms(), base_only=base_only, blind=blind, history=history)
 
     def _facts(self) -> dict[Any, Any]:
         scenario = self.model.options["scenario"]

@@ -45,11 +45,15 @@ class Transfers:
             bindings = {"request": asked.slot, "user": association, "upload": upload, "panel": False}
             self._belief.indicate(asked.slot, service, bindings)
 
+    def forget(self, asked: Asked) -> None:
+        """How the robot has answered one of these services is not known."""
+        self._beginning.pop(asked.slot, None)
+
     def asked_by_robot(self, association: str, asked: Asked, message: TraceMessage) -> Iterator[Finding]:
         """A request of the robot: it says that a download is going on."""
         service = str(asked.pdu.service)
         if service in ASKED_BY_ROBOT:
-            shown = self._belief.show(f"{service}Asked", _download(association, asked.pdu))
+            shown = self._belief.show(f"{service}Asked", download(association, asked.pdu))
             yield from self._telling.outcome(message, service, "", shown)
 
     def answered_by_client(self, association: str, asked: Asked, pdu: Pdu) -> None:
@@ -57,7 +61,7 @@ class Transfers:
         service = str(asked.pdu.service)
         if service not in ASKED_BY_ROBOT:
             return
-        bindings = _download(association, asked.pdu)
+        bindings = download(association, asked.pdu)
         if pdu.kind == "confirmed-ResponsePDU":
             if service == "downloadSegment":
                 bindings["more"] = pdu.body["moreFollows"]
@@ -70,7 +74,7 @@ class Transfers:
         service = str(asked.pdu.service)
         self._beginning.pop(asked.slot, None)
         accepted = pdu.kind == "confirmed-ResponsePDU"
-        bindings = {"request": asked.slot, "user": association, **_upload(association, asked.pdu, pdu)}
+        bindings = {"request": asked.slot, "user": association, **upload(association, asked.pdu, pdu)}
         answer = PLUS if accepted else MINUS
         local = pdu.kind == "rejectPDU" or (not accepted and robot.failure(pdu).local)
         if "upload" not in bindings:
@@ -104,13 +108,15 @@ class Transfers:
         yield from self._telling.outcome(message, "getDomainAttributes", answer, outcome)
 
 
-def _download(association: str, request: Pdu) -> dict[str, Any]:
+def download(association: str, request: Pdu) -> dict[str, Any]:
+    """What a request of the robot in a download is about, as the model takes it."""
     if request.service == "downloadSegment":
         return {"user": association, "domain": request.body}
     return {"user": association, "domain": request.body["domainName"], "discard": "discard" in request.body}
 
 
-def _upload(association: str, request: Pdu, answer: Pdu) -> dict[str, Any]:
+def upload(association: str, request: Pdu, answer: Pdu) -> dict[str, Any]:
+    """What an answer in an upload is about, as the model takes it; one that has no number has no ``upload``."""
     accepted = answer.kind == "confirmed-ResponsePDU"
     if request.service == "initiateUploadSequence":
         named = {"upload": f"{association}#{answer.body['ulsmID']}"} if accepted else {}

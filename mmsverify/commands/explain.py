@@ -1,4 +1,4 @@
-"""``mmsverify explain``: the shortest legal way from one sample of VR cells to the next."""
+"""``mmsverify explain``: why the findings of a message stand; how a sample of VR cells may follow."""
 
 from __future__ import annotations
 
@@ -9,27 +9,44 @@ import typer
 
 from mmsverify.commands.options import Output, Profile, Quiet, Variant
 from mmsverify.commands.output import emit, require_writable
-from mmsverify.report import EXPLANATION_FORMATS, render_explanation, require_format
+from mmsverify.report import EXPLANATION_FORMATS, render_accounts, render_explanation, require_format
 
 
 def explain(
     trace: Annotated[Path, typer.Argument(metavar="TRACE", help="An MCAP file.")],
-    index: Annotated[int, typer.Argument(metavar="INDEX", help="The sample, counted as findings count.")],
+    index: Annotated[int, typer.Argument(metavar="INDEX", help="The message, counted as findings count.")],
     *,
     profile: Profile = None,
     variant: Variant = "repaired",
+    way: Annotated[
+        bool,
+        typer.Option(
+            "--way", help="Of a sample with a finding: the shortest legal way to it instead, if any."
+        ),
+    ] = False,
     format: Annotated[str, typer.Option("--format", metavar="text|json")] = "text",
     output: Output = None,
     quiet: Quiet = False,  # noqa: ARG001 (every command takes it; this one has nothing to be quiet about)
 ) -> int:
-    """Show the shortest legal way from one sample of VR cells to the next, or why there is none.
+    """Explain a message: why its findings stand, and what would have been legal instead.
 
-    Exit status: 0 there is a way, 1 there is none, 2 bad request or nothing could be read.
+    Told are the clauses in our words, the earlier messages that exclude what was observed, and the nearest
+    legal conversations: one message put in, left out or changed. All of it is found by replaying.
+
+    Of a sample of VR cells without a finding: the shortest legal way to it from the sample before.
+
+    Exit status: 0 nothing is wrong with it, 1 something is, 2 bad request or nothing could be read.
     """
     require_format(format, EXPLANATION_FORMATS)
     require_writable(output, [trace])
-    from mmsverify.explaining import explain_sample
+    from mmsverify.explaining import explain_findings, explain_sample, findings_at, shows_cells
 
-    found = explain_sample(trace, index, profile=profile, variant=variant)
-    emit(render_explanation(found, format), output)
-    return int(found.way is None)
+    cells = shows_cells(trace, index)
+    found = [] if cells and way else findings_at(trace, index, profile=profile, variant=variant)
+    if cells and not found:
+        explained = explain_sample(trace, index, profile=profile, variant=variant)
+        emit(render_explanation(explained, format), output)
+        return int(explained.way is None)
+    accounts = explain_findings(trace, found, profile=profile, variant=variant)
+    emit(render_accounts(str(trace), index, accounts, format), output)
+    return int(any(finding.severity == "error" for finding in found))

@@ -108,6 +108,12 @@ def decode(octets: bytes) -> Adu:
     return Adu(transaction, unit, octets[HEADER.size], octets[HEADER.size + 1 :])
 
 
+def encode(adu: Adu) -> bytes:
+    """The octets of an ADU."""
+    header = HEADER.pack(adu.transaction, 0, len(adu.data) + 2, adu.unit)
+    return header + bytes([adu.function]) + adu.data
+
+
 def request(adu: Adu) -> Request | None:
     """What an ADU asks for; ``None`` for a function code that is none of ``Function``."""
     try:

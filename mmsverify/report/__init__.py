@@ -13,6 +13,8 @@ from collections.abc import Callable, Mapping, Sequence
 from mmsverify.errors import UsageError
 from mmsverify.incident import Dossier
 from mmsverify.report import (
+    account_json,
+    account_text,
     audit_json,
     audit_junit,
     audit_sarif,
@@ -29,9 +31,10 @@ from mmsverify.report import (
     survey_json,
     survey_text,
 )
-from mmsverify.results import Audit, Explanation, ModelCheck, Register, Survey
+from mmsverify.results import Account, Audit, Explanation, ModelCheck, Register, Survey
 
 __all__ = [
+    "ACCOUNT_FORMATS",
     "AUDIT_FORMATS",
     "CHECK_FORMATS",
     "CLAUSES_FORMATS",
@@ -39,6 +42,7 @@ __all__ = [
     "FINDINGS_FORMATS",
     "IMPORT_FORMATS",
     "RECORD_FORMATS",
+    "render_accounts",
     "render_audit",
     "render_check",
     "render_clauses",
@@ -67,6 +71,11 @@ CLAUSES_FORMATS: Mapping[str, Callable[..., str]] = {
     "json": clauses_json.render,
 }
 
+ACCOUNT_FORMATS: Mapping[str, Callable[[str, int, Sequence[Account]], str]] = {
+    "text": account_text.render,
+    "json": account_json.render,
+}
+
 EXPLANATION_FORMATS: Mapping[str, Callable[[Explanation], str]] = {
     "text": explanation_text.render,
     "json": explanation_json.render,
@@ -86,6 +95,11 @@ RECORD_FORMATS: Mapping[str, Callable[[str, recording.Recording], str]] = {
     "text": recording.render_text,
     "json": recording.render_json,
 }
+
+
+def render_accounts(path: str, index: int, accounts: Sequence[Account], format: str) -> str:
+    """Why the findings of one message stand in ``format``, a key of ``ACCOUNT_FORMATS``."""
+    return ACCOUNT_FORMATS[require_format(format, ACCOUNT_FORMATS)](path, index, accounts)
 
 
 def render_audit(audit: Audit, format: str, dossier: Dossier | None = None) -> str:

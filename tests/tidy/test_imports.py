@@ -48,7 +48,7 @@ ALLOWED = {
 # The composition roots tie the engines together: they may import all of the above, and the command line them.
 ROOTS = {
     "auditing": ALLOWED.keys() - {"symbolic", "graph", "report"},
-    "explaining": ALLOWED.keys() - {"symbolic", "graph", "report", "fleet"},
+    "explaining": ALLOWED.keys() - {"symbolic", "graph", "report", "fleet"} | {"register"},
     "incidents": ALLOWED.keys() - {"symbolic", "graph", "report", "fleet"} | {"register"},
     "annotating": ALLOWED.keys() - {"symbolic", "graph", "fleet"} | {"incidents"},
     "timelines": ALLOWED.keys() - {"symbolic", "graph"} | {"auditing", "incidents"},

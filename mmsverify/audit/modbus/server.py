@@ -165,6 +165,20 @@ class Server:
         yield from self._served(connection)
         yield from self._answered(connection, adu, message)
 
+    def doubt(self, message: TraceMessage) -> None:
+        """A message comes that is not believed: it occupies nothing, but may have written something."""
+        if message.metadata.get("sender", "client") != "client":
+            return
+        try:
+            asked = Asked(message, adu := modbus.decode(message.data), modbus.request(adu))
+        except DecodeError:
+            self._memory.lose()
+            return
+        if asked.writes:
+            sound = asked.request is not None and not asked.request.amiss
+            self._memory.ask(message.index, asked.request if sound else None)
+            self._memory.give_up(message.index)
+
     def _served(self, connection: Connection) -> Iterator[Finding]:
         """The server says something on a connection: it holds a socket for it.
 
