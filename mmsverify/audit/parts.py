@@ -108,6 +108,11 @@ class Parts:
         return Controller(place, scans, numbering, history)
 
     @property
+    def numbering(self) -> Numbering:
+        """What the numbers in a controller's cells mean under this profile."""
+        return self._framework[1]
+
+    @property
     def framework_tables(self) -> LearnedTables:
         """What was learned of controllers under this profile."""
         return self._framework[2]

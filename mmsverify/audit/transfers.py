@@ -116,7 +116,7 @@ def download(association: str, request: Pdu) -> dict[str, Any]:
 
 
 def upload(association: str, request: Pdu, answer: Pdu) -> dict[str, Any]:
-    """What an answer in an upload is about, as the model takes it; one that has no number has no ``upload``."""
+    """What an answer in an upload is about, as the model takes it; one without a number has no ``upload``."""
     accepted = answer.kind == "confirmed-ResponsePDU"
     if request.service == "initiateUploadSequence":
         named = {"upload": f"{association}#{answer.body['ulsmID']}"} if accepted else {}

@@ -18,12 +18,6 @@ def explain(
     *,
     profile: Profile = None,
     variant: Variant = "repaired",
-    way: Annotated[
-        bool,
-        typer.Option(
-            "--way", help="Of a sample with a finding: the shortest legal way to it instead, if any."
-        ),
-    ] = False,
     format: Annotated[str, typer.Option("--format", metavar="text|json")] = "text",
     output: Output = None,
     quiet: Quiet = False,  # noqa: ARG001 (every command takes it; this one has nothing to be quiet about)
@@ -33,7 +27,7 @@ def explain(
     Told are the clauses in our words, the earlier messages that exclude what was observed, and the nearest
     legal conversations: one message put in, left out or changed. All of it is found by replaying.
 
-    Of a sample of VR cells without a finding: the shortest legal way to it from the sample before.
+    Of a sample of VR cells, the shortest legal way to it from the sample before, or that there is none.
 
     Exit status: 0 nothing is wrong with it, 1 something is, 2 bad request or nothing could be read.
     """
@@ -41,12 +35,12 @@ def explain(
     require_writable(output, [trace])
     from mmsverify.explaining import explain_findings, explain_sample, findings_at, shows_cells
 
-    cells = shows_cells(trace, index)
-    found = [] if cells and way else findings_at(trace, index, profile=profile, variant=variant)
-    if cells and not found:
-        explained = explain_sample(trace, index, profile=profile, variant=variant)
-        emit(render_explanation(explained, format), output)
-        return int(explained.way is None)
+    if shows_cells(trace, index):
+        sample = explain_sample(trace, index, profile=profile, variant=variant)
+        accounts = explain_findings(trace, sample.findings, profile=profile, variant=variant)
+        emit(render_explanation(sample, format, accounts), output)
+        return int(sample.way is None)
+    found = findings_at(trace, index, profile=profile, variant=variant)
     accounts = explain_findings(trace, found, profile=profile, variant=variant)
     emit(render_accounts(str(trace), index, accounts, format), output)
     return int(any(finding.severity == "error" for finding in found))

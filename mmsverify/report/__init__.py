@@ -76,7 +76,7 @@ ACCOUNT_FORMATS: Mapping[str, Callable[[str, int, Sequence[Account]], str]] = {
     "json": account_json.render,
 }
 
-EXPLANATION_FORMATS: Mapping[str, Callable[[Explanation], str]] = {
+EXPLANATION_FORMATS: Mapping[str, Callable[[Explanation, Sequence[Account]], str]] = {
     "text": explanation_text.render,
     "json": explanation_json.render,
 }
@@ -124,9 +124,12 @@ def render_clauses(registers: Sequence[Register], format: str, *, long: bool = F
     return CLAUSES_FORMATS[require_format(format, CLAUSES_FORMATS)](registers, long=long)
 
 
-def render_explanation(explanation: Explanation, format: str) -> str:
-    """How a sample follows from the one before in ``format``, a key of ``EXPLANATION_FORMATS``."""
-    return EXPLANATION_FORMATS[require_format(format, EXPLANATION_FORMATS)](explanation)
+def render_explanation(explanation: Explanation, format: str, accounts: Sequence[Account] = ()) -> str:
+    """How a sample follows from the one before in ``format``, a key of ``EXPLANATION_FORMATS``.
+
+    ``accounts`` are those of its findings.
+    """
+    return EXPLANATION_FORMATS[require_format(format, EXPLANATION_FORMATS)](explanation, accounts)
 
 
 def render_findings(survey: Survey, format: str) -> str:

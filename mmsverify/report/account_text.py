@@ -17,7 +17,12 @@ def render(path: str, index: int, accounts: Sequence[Account]) -> str:
     head = f"{printable(path)}: message {index}"
     if not accounts:
         return f"{head}: nothing is wrong with it\n"
-    return "\n\n".join([head, *("\n".join(_lines(each)) for each in accounts)]) + "\n"
+    return "\n\n".join([head, *map(account, accounts)]) + "\n"
+
+
+def account(told: Account) -> str:
+    """One account, without a line feed at its end."""
+    return "\n".join(_lines(told))
 
 
 def _lines(account: Account) -> Iterator[str]:
@@ -47,25 +52,40 @@ def _unknown(account: Account) -> list[str]:
 
 
 def _grounds(account: Account) -> Iterator[str]:
-    for number, ground in enumerate(account.grounds):
-        yield from _told("because" if number == 0 else "as well", _because(ground, first=number == 0))
-        for message in ground.messages:
-            yield from _told("", _evidence(message), bullet=f"#{message.index}")
-    if account.earliest is not None and len(account.grounds[0].messages) > 1:
-        yield from _told("earliest", f"#{account.earliest}")
+    """The smallest set in full, then the others: first those of one message each, under one heading."""
+    for ground in account.grounds[:1]:
+        yield from _told("because", _because(ground))
+        yield from _messages(ground)
+        if len(ground.messages) > 1:
+            yield from _told("earliest", f"#{ground.earliest}")
+    others = account.grounds[1:]
+    single = [ground for ground in others if len(ground.messages) == 1]
+    if single:
+        each = "each of these excludes it, too" if len(single) > 1 else "this one excludes it, too"
+        yield from _told("as well", f"{each}, by itself:")
+    for ground in single:
+        yield from _messages(ground)
+    for ground in others:
+        if ground not in single:
+            yield from _told("as well", "these together exclude it, too:")
+            yield from _messages(ground)
 
 
-def _because(ground: Ground, *, first: bool) -> str:
+def _messages(ground: Ground) -> Iterator[str]:
+    for message in ground.messages:
+        yield from _told("", _evidence(message), bullet=f"#{message.index}")
+
+
+def _because(ground: Ground) -> str:
     count = len(ground.messages)
     if not count:
         return "no earlier message is needed: it is wrong by itself, or with its own request"
     if ground.stretch:
-        return "the samples from the first of these to the last exclude it, whatever was before"
+        first = "these samples exclude it" if count > 1 else "this sample excludes it"
+        return f"{first}, whatever was before{', with all between them' if count > 1 else ''}:"
     fewer = "" if ground.irreducible else " (fewer might do: the search was broken off)"
-    if first:
-        what = "this message excludes it" if count == 1 else f"these {count} messages together exclude it"
-        return f"{what}, whatever any other says{fewer}"
-    return f"{'this' if count == 1 else 'these together'} would exclude it without those above{fewer}"
+    what = "this message excludes it" if count == 1 else f"these {count} messages together exclude it"
+    return f"{what}, whatever the others say{fewer}:"
 
 
 def _evidence(message: Evidence) -> str:

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+from mmsverify.report.account_text import account
 from mmsverify.report.wording import printable
-from mmsverify.results import Explanation, PathStep
+from mmsverify.results import Account, Explanation, PathStep
 
 
-def render(explanation: Explanation) -> str:
-    """The shortest legal way, or why there is none; ends with a line feed."""
-    return "\n".join(_lines(explanation)) + "\n"
+def render(explanation: Explanation, accounts: Sequence[Account]) -> str:
+    """The shortest legal way, or why there is none, then the accounts of findings; ends with a line feed."""
+    told = ["\n".join(_lines(explanation)), *map(account, accounts)]
+    return "\n\n".join(told) + "\n"
 
 
 def _lines(explanation: Explanation) -> Iterator[str]:

@@ -9,6 +9,7 @@ from typing import Literal
 import pytest
 
 from mmsverify.cli import main
+from mmsverify.errors import UsageError
 from mmsverify.explaining import explain_sample
 from mmsverify.formats.mcap_write import TraceWriter
 from mmsverify.formats.trace import Channel
@@ -61,9 +62,9 @@ def test_an_index_beyond_the_recording_is_a_bad_request(
     assert "there is no message" in capsys.readouterr().err
 
 
-def test_a_message_of_a_robot_is_a_bad_request(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["explain", str(traces_dir() / "faulty-vmd-stop.mcap"), "3"]) == 2
-    assert "message 3 shows no VR cells (give the index of a sample)" in capsys.readouterr().err
+def test_a_message_of_a_robot_has_no_way() -> None:
+    with pytest.raises(UsageError, match="message 3 shows no VR cells"):
+        explain_sample(traces_dir() / "faulty-vmd-stop.mcap", 3)
 
 
 TABLE = """[[vr-template.commands]]

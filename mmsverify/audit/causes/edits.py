@@ -204,7 +204,7 @@ def inserted(talk: Conversation, event: int, programs: Sequence[str], arms: Sequ
             TraceMessage(at.index - SPREAD // 2 + n, at.time, channel, data)
             for n, (channel, data) in enumerate(zip(channels, octets, strict=True))
         )
-        yield Edit("insert", begin, begin, begin, made, said)
+        yield Edit("insert", begin, begin, begin, made, f"{said}, answered result(+)")
 
 
 def _services(programs: Sequence[str], arms: Sequence[str]) -> Iterator[tuple[str, Any, Any, str]]:

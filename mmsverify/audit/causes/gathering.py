@@ -16,7 +16,7 @@ from mmsverify.formats.trace import TraceMessage
 from mmsverify.results import Finding
 
 ROBOT, SERVER, CONTROLLER = "robot", "server", "controller"
-AFTER, LONG_AFTER = 12, 130
+AFTER, LONG_AFTER = 30, 130
 LATE = frozenset({"event.missing", "protocol.unanswered"})
 """Rules that are told of a message only when others have gone by."""
 ENDS = ("close", "reset")

@@ -14,8 +14,8 @@ from mmsverify.audit.causes.edits import Edit, agreed, changed, dropped, inserte
 from mmsverify.audit.causes.retelling import SpentError
 from mmsverify.audit.causes.robot_case import Case
 
-AFTER = 10
-"""So many messages after the event must go without a new finding."""
+AFTER = 30
+"""So many messages after the event must go without a new finding, or until all is as it was."""
 
 
 @dataclass(frozen=True, slots=True)

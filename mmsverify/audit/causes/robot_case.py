@@ -59,7 +59,7 @@ class Case:
         left = self._earlier()
         while len(sets) < most:
             found = self._evidence(left)
-            if found is None:
+            if found is None or (sets and not found.irreducible):
                 break
             sets.append(found)
             if not found.turns or not found.irreducible:
@@ -74,7 +74,8 @@ class Case:
         }
 
         def asks(first: int, kept: frozenset[int]) -> bool:
-            return self._comes(turns[first] if first < len(turns) else None, {turns[n] for n in kept})
+            heard = turns[first] if first < len(turns) else None
+            return self._comes(heard, {turns[n] for n in kept}) is not None
 
         found = smallest(len(turns), asks, [n for n, turn in enumerate(turns) if turn in likely])
         return None if found is None else Found(tuple(turns[n] for n in found.turns), found.irreducible)
@@ -83,8 +84,8 @@ class Case:
         own = self.talk.turn_of[self.event]
         return [n for n, turn in enumerate(self.talk.turns) if turn.positions[0] < self.until and n != own]
 
-    def _comes(self, first: int | None, believed: set[int]) -> bool:
-        """Whether the finding comes when these turns are believed, and those before the first unheard."""
+    def _comes(self, first: int | None, believed: set[int]) -> Finding | None:
+        """The finding, if it comes when these turns are believed, and those before the first unheard."""
         own = self.talk.turn_of[self.event]
         heard = own if first is None else min(own, first)
         begin = self.talk.begin(heard) if first is not None else self.talk.turns[own].positions[0]
@@ -94,11 +95,12 @@ class Case:
                 turn = self.talk.turn_of[at]
                 doubted = turn >= 0 and turn != own and turn not in believed
                 state, told = self.retelling.step(state, self.talk.messages[at], doubted=doubted)
-                if any((each.index, each.rule) == self._mark for each in told):
-                    return True
+                for each in told:
+                    if (each.index, each.rule) == self._mark:
+                        return each
         except SpentError:
             raise GivenUpError from None
-        return False
+        return None
 
     def instead(self, edit: Edit, after: int) -> tuple[bool, list[int]]:
         """Tell it with an edit.

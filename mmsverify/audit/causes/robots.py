@@ -18,7 +18,7 @@ MOST_SETS = 5
 """So many sets that exclude the event are looked for."""
 LARGEST_OTHER = 2
 """A further set is told only if it is no larger: of a heap of messages nobody learns anything."""
-FOR_GROUNDS, FOR_EDITS = 400, 250
+FOR_GROUNDS, FOR_EDITS = 300, 300
 """Steps that are worked out at most, of 3 ms or so each."""
 TOO_LONG = "the search for what excludes it was broken off: fewer messages might do"
 NOT_ALL_TRIED = "not all edits could be tried"
@@ -36,6 +36,8 @@ class Robots:
     ) -> None:
         self._talk = conversation(messages)
         self._arms = arms
+        said = (message.metadata.get("association") for message in messages)
+        self._associations = {name for name in said if name is not None}
         blind = [(spread_out(first), spread_out(last)) for first, last in setting.blind]
         spaced = Setting(setting.place, setting.base_only, (*blind, *self._unheard()))
         names = names_of(parts, spaced, self._talk.messages)
@@ -81,9 +83,12 @@ class Robots:
         return recorded(self._talk.messages[position].index)
 
     def _words(self, position: int) -> str:
+        """The message, with the association where there are several."""
         request = self._talk.request(position)
         asked = None if request is None else self._talk.pdus[request]
-        return brief(self._talk.pdus[position], asked)
+        told = brief(self._talk.pdus[position], asked)
+        name = self._talk.messages[position].metadata.get("association", "")
+        return f"{told} ({name})" if len(self._associations) > 1 else told
 
     def _evidence(self, turn: int) -> Evidence:
         at = self._talk.turns[turn].at

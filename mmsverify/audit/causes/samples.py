@@ -21,7 +21,8 @@ from mmsverify.results import Account, Edit, Evidence, Finding, Ground, Statemen
 
 AFTER = 10
 """So many samples after the event must go without a new finding."""
-SHOWN = ("C_RunMD", "CS_RunSTA", "C_Cmd", "CF_Home")
+MODE, STATUS, COMMAND, HOMED = "C_RunMD", "CS_RunSTA", "C_Cmd", "CF_Home"
+SHOWN = (MODE, STATUS, COMMAND, HOMED)
 NO_EDIT = "no single sample, changed or left out, would make this recording legal"
 Marks = set[tuple[int | None, str]]
 
@@ -32,6 +33,13 @@ class Samples:
     def __init__(self, parts: Parts, place: Place, messages: Sequence[TraceMessage]) -> None:
         self._parts, self._place, self._messages = parts, place, messages
         self._at = {message.index: at for at, message in enumerate(messages)}
+        numbers = parts.numbering
+        words = {MODE: numbers.modes, STATUS: numbers.statuses}
+        self._meanings: dict[str, Mapping[int, str]] = {
+            cell: {n: " or ".join(sorted(meant)) for n, meant in table.items()}
+            for cell, table in words.items()
+        }
+        self._meanings[COMMAND] = numbers.commands
         self._cells: list[Mapping[str, Any]] = []
         held: dict[str, Any] = {}
         for message in messages:
@@ -95,8 +103,13 @@ class Samples:
 
     def _words(self, at: int) -> str:
         held = self._cells[at]
-        shown = ", ".join(f"{name} {vr.plain(held[name])}" for name in SHOWN if name in held)
+        shown = ", ".join(self._cell(name, held[name]) for name in SHOWN if name in held)
         return f"sample: {shown}" if shown else "sample"
+
+    def _cell(self, name: str, held: Any) -> str:
+        """A cell with its number, and what that means."""
+        meant = self._meanings.get(name, {}).get(held)
+        return f"{name} {held}" if meant is None else f"{name} {held} ({meant})"
 
     # What would have been legal.
 
@@ -115,7 +128,10 @@ class Samples:
             new = self._new(first, event, [other])
             if finding.index not in new:
                 said = ((other.topic, other.data),)
-                yield Edit("change", other.index, f"shows {cell} {number}", said), tuple(sorted(new))
+                yield (
+                    Edit("change", other.index, f"shows {self._cell(cell, int(number))}", said),
+                    tuple(sorted(new)),
+                )
 
     def _dropped(self, first: int, event: int) -> Edit | None:
         if first == event or self._new(first, event, []):
