@@ -33,7 +33,9 @@ __all__ = ["explain_finding", "explain_findings", "explain_sample", "findings_at
 
 WINDOWS = (120, 1000)
 """So many messages of the robot before a finding are looked at; where they do not do, the second many."""
-BEYOND = f"what excludes it is not among the {WINDOWS[-1]} messages before it: no grounds were looked for"
+BEYOND = (
+    f"it does not come of the {WINDOWS[-1]} messages before it alone: what excludes it was not looked for"
+)
 OF_THE_FILE = "it is about the whole file"
 
 
@@ -175,7 +177,8 @@ class _Explaining:
         base_only = frozenset(name for device, name in self._ahead.base_only if device == stretch.device)
         blind = tuple(self._ahead.blind(stretch.device))
         arms = list(self._parts.profile.get("arms", ()))
-        return Robots(self._parts, Setting(place, base_only, blind), stretch.messages, arms)
+        setting = Setting(place, base_only, blind)
+        return Robots(self._parts, setting, stretch.messages, arms, whole=stretch.whole)
 
     def without(self, finding: Finding) -> Account:
         """The account of a finding that did not come again."""

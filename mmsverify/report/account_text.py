@@ -10,6 +10,8 @@ from mmsverify.report.wording import printable
 from mmsverify.results import Account, Edit, Evidence, Ground
 
 WIDTH, LABEL = 100, 12
+MOST_MESSAGES = 8
+"""So many of one set are told; the JSON holds all."""
 
 
 def render(path: str, index: int, accounts: Sequence[Account]) -> str:
@@ -72,8 +74,9 @@ def _grounds(account: Account) -> Iterator[str]:
 
 
 def _messages(ground: Ground) -> Iterator[str]:
-    for message in ground.messages:
+    for message in ground.messages[:MOST_MESSAGES]:
         yield from _told("", _evidence(message), bullet=f"#{message.index}")
+    yield from _told("", f"and {rest} more" if (rest := len(ground.messages) - MOST_MESSAGES) > 0 else "")
 
 
 def _because(ground: Ground) -> str:

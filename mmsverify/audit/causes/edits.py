@@ -12,7 +12,7 @@ from typing import Any, Literal
 
 from mmsverify.audit import words
 from mmsverify.audit.causes.brief import NAMES
-from mmsverify.audit.causes.conversation import SPREAD, Conversation
+from mmsverify.audit.causes.conversation import SPREAD, Conversation, recorded
 from mmsverify.formats import mms
 from mmsverify.formats.mms import EncodeError, Pdu
 from mmsverify.formats.trace import Channel, TraceMessage
@@ -28,6 +28,7 @@ SILENT = {
 CONFLICT = ("service", 2)
 """Object state conflict: why a robot refuses what its state does not allow."""
 UNRECOGNISED = ("confirmed-request", 1)
+OTHER: Mapping[str, Literal["client", "server"]] = {"client": "server", "server": "client"}
 MOST_NAMES = 4
 MOST_CHANGED = 12
 """Values of earlier messages, or of one message, that are tried at most."""
@@ -205,6 +206,25 @@ def inserted(talk: Conversation, event: int, programs: Sequence[str], arms: Sequ
             for n, (channel, data) in enumerate(zip(channels, octets, strict=True))
         )
         yield Edit("insert", begin, begin, begin, made, f"{said}, answered result(+)")
+
+
+def answered(talk: Conversation, event: int) -> Iterator[Edit]:
+    """An answer to a request that has none, at once."""
+    pdu, turn = talk.pdus[event], talk.turn_of[event]
+    if pdu is None or pdu.kind != "confirmed-RequestPDU" or len(talk.turns[turn].positions) > 1:
+        return
+    if event + 1 == len(talk.messages):
+        return
+    names, at = talk.messages[event].metadata, talk.messages[event]
+    channel = Channel.mms(names["vmd"], names["association"], OTHER[names["sender"]])
+    told = [Pdu("confirmed-ErrorPDU", pdu.invoke_id, body={"serviceError": {"errorClass": CONFLICT}})]
+    if pdu.service in SILENT:
+        told.insert(0, Pdu("confirmed-ResponsePDU", pdu.invoke_id, pdu.service, SILENT[pdu.service]))
+    for answer in told:
+        message = TraceMessage(at.index + 1, at.time, channel, mms.encode(answer))
+        sign = "-" if answer.kind == "confirmed-ErrorPDU" else "+"
+        what = f"the answer to #{recorded(at.index)}, result({sign})"
+        yield Edit("insert", event + 1, event + 1, event + 1, (message,), what)
 
 
 def _services(programs: Sequence[str], arms: Sequence[str]) -> Iterator[tuple[str, Any, Any, str]]:

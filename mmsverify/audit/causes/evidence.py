@@ -30,17 +30,18 @@ class Found:
     irreducible: bool
 
 
-def smallest(count: int, asks: Asks, likely: Collection[int]) -> Found | None:
+def smallest(count: int, asks: Asks, likely: Collection[int], alone: Collection[int] = ()) -> Found | None:
     """The set for the turns 0 to ``count`` - 1; ``None`` where all of them together do not do.
 
-    ``likely`` are turns to be tried first. ``asks`` may raise ``GivenUpError``; then the set is as small as
-    was reached by then.
+    ``likely`` are turns to be tried first, those of ``alone`` each by itself, before all else. ``asks`` may
+    raise ``GivenUpError``; then the set is as small as was reached by then.
     """
     search = _Search(count, asks, sorted({turn for turn in likely if 0 <= turn < count}))
     try:
-        if not search.begins():
-            return None
-        search.reduce()
+        if not search.is_one_of(alone):
+            if not search.begins():
+                return None
+            search.reduce()
         irreducible = search.irreducible()
     except GivenUpError:
         return Found(tuple(sorted(search.best)), irreducible=False) if search.best is not None else None
@@ -66,6 +67,10 @@ class _Search:
 
     def _from(self, first: int) -> bool:
         return self._does(range(first, self._count), first)
+
+    def is_one_of(self, turns: Collection[int]) -> bool:
+        """Whether one of these alone does, or none at all."""
+        return bool(turns) and (self._from(self._count) or any(self._does({turn}) for turn in turns))
 
     def begins(self) -> bool:
         """Find how late one may begin to listen; whether the finding comes at all."""

@@ -10,7 +10,16 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import chain
 
-from mmsverify.audit.causes.edits import Edit, agreed, changed, dropped, inserted, programs, statuses
+from mmsverify.audit.causes.edits import (
+    Edit,
+    agreed,
+    answered,
+    changed,
+    dropped,
+    inserted,
+    programs,
+    statuses,
+)
 from mmsverify.audit.causes.retelling import SpentError
 from mmsverify.audit.causes.robot_case import Case
 
@@ -38,7 +47,11 @@ def mend(case: Case, turns: Iterable[int], arms: Sequence[str]) -> Mended:
     earlier = (edit for turn in sorted(turns, reverse=True) for edit in _earlier(case, turn))
     kinds: list[Iterator[Edit]] = [
         changed(talk, event, case.finding.expected),
-        chain(inserted(talk, event, programs(talk, case.finding), arms), statuses(talk, event)),
+        chain(
+            answered(talk, event),
+            inserted(talk, event, programs(talk, case.finding), arms),
+            statuses(talk, event),
+        ),
         earlier,
         iter([dropped(talk, event)]),
     ]

@@ -12,6 +12,10 @@ from mmsverify.audit.causes.retelling import Retelling, SpentError
 from mmsverify.formats.trace import TraceMessage
 from mmsverify.results import Finding
 
+OF_ASSOCIATIONS = ("protocol.", "negotiation.", "association.", "conformance.")
+"""Rules of which what was agreed when the association began is likely to be the reason."""
+FOR_THE_FIRST, FOR_THE_OTHERS = 400, 200
+"""So many steps are worked out at most for the first set, and for all others; one takes 3 ms or so."""
 Mark = tuple[int | None, str]
 """A finding by its index, in the spread counting, and its rule."""
 
@@ -57,11 +61,14 @@ class Case:
         """
         sets: list[Found] = []
         left = self._earlier()
+        self.retelling.allow(FOR_THE_FIRST)
         while len(sets) < most:
             found = self._evidence(left)
             if found is None or (sets and not found.irreducible):
                 break
             sets.append(found)
+            if len(sets) == 1:
+                self.retelling.allow(FOR_THE_OTHERS)
             if not found.turns or not found.irreducible:
                 break
             left = [turn for turn in left if turn not in found.turns]
@@ -77,8 +84,15 @@ class Case:
             heard = turns[first] if first < len(turns) else None
             return self._comes(heard, {turns[n] for n in kept}) is not None
 
-        found = smallest(len(turns), asks, [n for n, turn in enumerate(turns) if turn in likely])
+        agreed = self.finding.rule.startswith(OF_ASSOCIATIONS)
+        alone = [n for n, turn in enumerate(turns) if agreed and self._is_initiate(turn)]
+        likely_ones = [n for n, turn in enumerate(turns) if turn in likely]
+        found = smallest(len(turns), asks, likely_ones, alone[::-1])
         return None if found is None else Found(tuple(turns[n] for n in found.turns), found.irreducible)
+
+    def _is_initiate(self, turn: int) -> bool:
+        pdu = self.talk.pdus[self.talk.turns[turn].at]
+        return pdu is not None and pdu.kind.startswith("initiate")
 
     def _earlier(self) -> list[int]:
         own = self.talk.turn_of[self.event]

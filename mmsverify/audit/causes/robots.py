@@ -18,8 +18,8 @@ MOST_SETS = 5
 """So many sets that exclude the event are looked for."""
 LARGEST_OTHER = 2
 """A further set is told only if it is no larger: of a heap of messages nobody learns anything."""
-FOR_GROUNDS, FOR_EDITS = 300, 300
-"""Steps that are worked out at most, of 3 ms or so each."""
+FOR_EDITS = 300
+"""Steps that are worked out at most."""
 TOO_LONG = "the search for what excludes it was broken off: fewer messages might do"
 NOT_ALL_TRIED = "not all edits could be tried"
 NO_EDIT = "no single message, changed, put in or left out, would make this conversation legal"
@@ -28,18 +28,24 @@ NO_EDIT = "no single message, changed, put in or left out, would make this conve
 class Robots:
     """Tells of the findings in one stretch of a robot's conversation.
 
-    ``arms`` are the predefined program invocations of arms.
+    ``arms`` are the predefined program invocations of arms; ``whole``: nothing of it was said before.
     """
 
     def __init__(
-        self, parts: Parts, setting: Setting, messages: Sequence[TraceMessage], arms: Sequence[str]
+        self,
+        parts: Parts,
+        setting: Setting,
+        messages: Sequence[TraceMessage],
+        arms: Sequence[str],
+        *,
+        whole: bool,
     ) -> None:
         self._talk = conversation(messages)
         self._arms = arms
         said = (message.metadata.get("association") for message in messages)
         self._associations = {name for name in said if name is not None}
         blind = [(spread_out(first), spread_out(last)) for first, last in setting.blind]
-        spaced = Setting(setting.place, setting.base_only, (*blind, *self._unheard()))
+        spaced = Setting(setting.place, setting.base_only, (*blind, *(() if whole else self._unheard())))
         names = names_of(parts, spaced, self._talk.messages)
         self._retelling = Retelling(parts, spaced, names)
 
@@ -59,7 +65,6 @@ class Robots:
         self._retelling.allow(None)
         if not case.listen():
             return None
-        self._retelling.allow(FOR_GROUNDS)
         sets = case.evidence(MOST_SETS)
         sets = sorted(
             sets[:1] + [s for s in sets[1:] if len(s.turns) <= LARGEST_OTHER], key=lambda s: len(s.turns)
