@@ -230,6 +230,47 @@ def test_doubt_makes_no_finding_of_what_conforms(seed: int) -> None:
     assert sample.marks(0, end, doubted) == set()
 
 
+# Other recordings: a sample without one of its messages, or begun later.
+
+
+def without(name: str, index: int, into: Path, *, begin: int = 0) -> Path:
+    """The sample from the message ``begin`` on, without one of its messages."""
+    trace = read_trace(traces_dir() / name)
+    with TraceWriter(into) as made:
+        made.add_profile(trace.profile)
+        for message in trace:
+            if message.index >= begin and message.index != index:
+                made.add(message.time, message.channel, message.data)
+    return into
+
+
+def first_account(path: Path, rule: str) -> Account:
+    findings = audit_traces([path], profile=None, model=None).findings
+    return explain_finding(path, next(each for each in findings if each.rule == rule))
+
+
+def test_an_answer_to_nothing_lacks_its_request(tmp_path: Path) -> None:
+    path = without("two-clients.mcap", 26, tmp_path / "made.mcap")
+    told_of = first_account(path, "protocol.unasked")
+    assert [each.index for each in told_of.grounds[0].messages] == [17]
+    assert [edit.words for edit in told_of.edits if edit.kind == "insert"] == ["the request, such as Status"]
+
+
+def test_a_request_without_an_answer_lacks_it(tmp_path: Path) -> None:
+    path = without("two-clients.mcap", 23, tmp_path / "made.mcap")
+    told_of = first_account(path, "protocol.unanswered")
+    assert told_of.finding.index == 22
+    assert ("insert", 23, "the answer to #22, result(+)") in [
+        (edit.kind, edit.index, edit.words) for edit in told_of.edits
+    ]
+
+
+def test_a_recording_that_begins_late_is_explained_by_what_it_has(tmp_path: Path) -> None:
+    path = without("faulty-select.mcap", -1, tmp_path / "made.mcap", begin=38)
+    told_of = first_account(path, "select.selected-active")
+    assert [each.index for each in told_of.grounds[0].messages] == [1]
+
+
 # The search itself.
 
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from mmsverify.audit import words
-from mmsverify.audit.causes.brief import NAMES
+from mmsverify.audit.causes.brief import NAMES, brief
 from mmsverify.audit.causes.conversation import SPREAD, Conversation, recorded
 from mmsverify.formats import mms
 from mmsverify.formats.mms import EncodeError, Pdu
@@ -225,6 +225,22 @@ def answered(talk: Conversation, event: int) -> Iterator[Edit]:
         sign = "-" if answer.kind == "confirmed-ErrorPDU" else "+"
         what = f"the answer to #{recorded(at.index)}, result({sign})"
         yield Edit("insert", event + 1, event + 1, event + 1, (message,), what)
+
+
+def asked_for(talk: Conversation, event: int) -> Iterator[Edit]:
+    """The request to an answer that has none: one like another of the same service."""
+    pdu = talk.pdus[event]
+    if pdu is None or not talk.answers_nothing(event) or pdu.service is None:
+        return
+    like = [each for each in talk.pdus if each is not None and each.service == pdu.service]
+    names, at = talk.messages[event].metadata, talk.messages[event]
+    channel = Channel.mms(names["vmd"], names["association"], OTHER[names["sender"]])
+    for request in like:
+        if request.kind == "confirmed-RequestPDU":
+            made = mms.encode(replace(request, invoke_id=pdu.invoke_id))
+            message = TraceMessage(at.index - 1, at.time, channel, made)
+            what = f"the request, such as {brief(request).removesuffix(': request')}"
+            yield Edit("insert", event, event, event, (message,), what)
 
 
 def _services(programs: Sequence[str], arms: Sequence[str]) -> Iterator[tuple[str, Any, Any, str]]:

@@ -14,6 +14,7 @@ from mmsverify.audit.causes.edits import (
     Edit,
     agreed,
     answered,
+    asked_for,
     changed,
     dropped,
     inserted,
@@ -48,6 +49,7 @@ def mend(case: Case, turns: Iterable[int], arms: Sequence[str]) -> Mended:
     kinds: list[Iterator[Edit]] = [
         changed(talk, event, case.finding.expected),
         chain(
+            asked_for(talk, event),
             answered(talk, event),
             inserted(talk, event, programs(talk, case.finding), arms),
             statuses(talk, event),

@@ -14,7 +14,7 @@ from mmsverify.results import Finding
 
 OF_ASSOCIATIONS = ("protocol.", "negotiation.", "association.", "conformance.")
 """Rules of which what was agreed when the association began is likely to be the reason."""
-FOR_THE_FIRST, FOR_THE_OTHERS = 400, 200
+FOR_THE_FIRST, FOR_THE_OTHERS = 400, 320
 """So many steps are worked out at most for the first set, and for all others; one takes 3 ms or so."""
 Mark = tuple[int | None, str]
 """A finding by its index, in the spread counting, and its rule."""
