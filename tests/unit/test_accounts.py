@@ -271,6 +271,16 @@ def test_a_recording_that_begins_late_is_explained_by_what_it_has(tmp_path: Path
     assert [each.index for each in told_of.grounds[0].messages] == [1]
 
 
+def test_a_sample_that_cannot_be_read_is_wrong_by_itself(tmp_path: Path) -> None:
+    path, channel = tmp_path / "made.mcap", Channel.vr("press", "scan")
+    with TraceWriter(path) as made:
+        for number, data in enumerate([b'{"C_RunMD": 1, "CS_RunSTA": 1}', b"no sample"]):
+            made.add(number, channel, data)
+    told_of = first_account(path, "vr.undecodable")
+    assert told_of.grounds[0].messages == ()
+    assert [edit.kind for edit in told_of.edits] == ["drop"]
+
+
 # The search itself.
 
 

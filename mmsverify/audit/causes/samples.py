@@ -77,7 +77,9 @@ class Samples:
         return {(each.index, each.rule) for said in messages for each in controller.sample(said)}
 
     def _from(self, first: int, end: int) -> list[TraceMessage]:
-        """The samples from one on, which is given all cells that were known there."""
+        """The samples from one on, which is given all cells that were known there, if it is sound itself."""
+        if not _is_sound(self._messages[first]):
+            return [*self._messages[first:end]]
         whole = replace(self._messages[first], data=json.dumps(dict(self._cells[first])).encode())
         return [whole, *self._messages[first + 1 : end]]
 
@@ -145,6 +147,13 @@ class Samples:
         here = self._messages[event]
         old = {mark for mark in self._told([*before, here, *after]) if mark[0] != here.index}
         return {int(index or 0) for index, _ in self._told([*before, *said, *after]) - old}
+
+
+def _is_sound(message: TraceMessage) -> bool:
+    try:
+        return not vr.decode(message.data).bad
+    except DecodeError:
+        return False
 
 
 def _cells(message: TraceMessage) -> Mapping[str, Any]:
