@@ -6,6 +6,7 @@ A recording and a finding in, an account out; a recording and a sample in, the s
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -25,6 +26,7 @@ from mmsverify.formats.locations import Location, located
 from mmsverify.formats.mcap import McapTrace, read_trace
 from mmsverify.formats.trace import TraceMessage
 from mmsverify.profiles import for_recording, within_framework
+from mmsverify.register.readings import read_readings
 from mmsverify.register.statements import read_statements
 from mmsverify.resources import models_dir
 from mmsverify.results import Account, Explanation, Finding, PathStep, Statement
@@ -124,7 +126,8 @@ def explain_findings(
         if left:
             told |= explaining.accounts(left, before)
             left = [(number, each) for number, each in left if number not in told]
-    return [told.get(n) or explaining.without(each) for n, each in enumerate(findings)]
+    accounts = [told.get(n) or explaining.without(each) for n, each in enumerate(findings)]
+    return [replace(each, readings=readings_of(each.finding)) for each in accounts]
 
 
 def findings_at(
@@ -195,6 +198,12 @@ def statements_of(finding: Finding) -> tuple[Statement, ...]:
     """The statements of a finding's clauses, in our words, in its order; those that the registers have."""
     known = _statements()
     return tuple(known[clause] for clause in finding.clauses if clause in known)
+
+
+def readings_of(finding: Finding) -> dict[str, str]:
+    """What the readings that a finding cites say."""
+    known = read_readings()
+    return {cited: known[cited] for cited in finding.readings if cited in known}
 
 
 @cache

@@ -6,7 +6,6 @@ The recording is replayed once more, watched, and read once more for what was sa
 from __future__ import annotations
 
 import hashlib
-import re
 from bisect import bisect_left
 from collections import defaultdict, deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -26,8 +25,9 @@ from mmsverify.formats.trace import TraceMessage
 from mmsverify.incident import Change, DeviceLine, Dossier, Incident, Lane, Origin, Saying
 from mmsverify.model.load import find
 from mmsverify.profiles import for_recording, within_framework
+from mmsverify.register.readings import read_readings
 from mmsverify.register.statements import read_statements
-from mmsverify.resources import models_dir, readings_page
+from mmsverify.resources import models_dir
 from mmsverify.results import Audit, Finding
 
 __all__ = ["dossier", "reconstruct", "statements", "timeline"]
@@ -40,8 +40,6 @@ BEFORE, AFTER = 8, 3
 MOST_WINDOWS = 400
 """Findings of one recording whose surroundings are kept."""
 BLOCK = 1 << 20
-_READING = re.compile(r"^\| ([A-Z]+-[A-Z0-9-]+) \| (.+) \|$", re.MULTILINE)
-"""A row of the page of readings: an id, and how it is read."""
 Kept = tuple[str, int, TraceMessage]
 """A message with its device, and the number that it has among that device's messages."""
 
@@ -103,7 +101,7 @@ def dossier(
 def statements(audit: Audit, models: Sequence[str] = (ROBOT, FRAMEWORK, SIGNALS)) -> dict[str, str]:
     """What the statements of these models, and readings, say that the findings cite, by id."""
     cited = {each for found in audit.findings for each in (*found.clauses, *found.readings)}
-    said = dict(_READING.findall(readings_page().read_text(encoding="utf-8")))
+    said = dict(read_readings())
     for model in models:
         said |= {each.id: each.says for each in read_statements(find(model, models_dir())).values()}
     return {each: said[each] for each in sorted(cited & said.keys())}

@@ -334,7 +334,8 @@ class Edit:
 class Account:
     """Why a finding stands, and what would have been legal; each part found by replaying, none guessed.
 
-    ``event`` is the message in words, ``statements`` are those of the finding's clauses, in their order.
+    ``event`` is the message in words, ``statements`` are those of the finding's clauses, in their order,
+    ``readings`` what its readings say, by id.
     ``grounds`` each exclude the event by themselves, the smallest first; none where it was not found out, and
     ``remarks`` then say why. ``right`` is what would have been legal at the event, and ``later`` are the
     messages after it that would then have been wrong. ``edits`` each make a legal conversation, the nearest
@@ -351,6 +352,7 @@ class Account:
     later: tuple[int, ...] = ()
     edits: tuple[Edit, ...] = ()
     remarks: tuple[str, ...] = ()
+    readings: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def earliest(self) -> int | None:

@@ -27,6 +27,7 @@ def account(told: Account) -> dict[str, Any]:
         "statements": [
             {"id": each.id, "clause": each.clause, "statement": each.says} for each in told.statements
         ],
+        "readings": dict(told.readings),
         "grounds": [*map(_ground, told.grounds)],
         "earliest": told.earliest,
         "right": None if told.right is None else _edit(told.right),

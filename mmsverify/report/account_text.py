@@ -36,8 +36,9 @@ def _lines(account: Account) -> Iterator[str]:
     yield from _told("wrong", finding.message)
     for statement in account.statements:
         yield from _told("clause", f"{statement.id}: {statement.says}")
-    readings = [*finding.readings, *_unknown(account)]
-    yield from _told("cites also", " ".join(readings))
+    for cited, says in account.readings.items():
+        yield from _told("reading", f"{cited}: {says}")
+    yield from _told("cites also", " ".join(_unknown(account)))
     yield from _grounds(account)
     yield from _told("legal here", " or ".join(finding.expected))
     yield from _right(account)
@@ -48,9 +49,10 @@ def _lines(account: Account) -> Iterator[str]:
 
 
 def _unknown(account: Account) -> list[str]:
-    """Clauses whose statement no register of ours has."""
-    known = {statement.id for statement in account.statements}
-    return [clause for clause in account.finding.clauses if clause not in known]
+    """What the finding cites and nobody has words for."""
+    known = {*account.readings, *(statement.id for statement in account.statements)}
+    cited = (*account.finding.clauses, *account.finding.readings)
+    return [each for each in cited if each not in known]
 
 
 def _grounds(account: Account) -> Iterator[str]:

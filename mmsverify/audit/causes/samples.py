@@ -52,9 +52,8 @@ class Samples:
         if event is None or not self._comes(finding, 0, event):
             return None
         first = self._latest(finding, event)
-        stretch = Ground(
-            tuple(self._evidence(at) for at in {first, event - 1} if at < event), True, stretch=True
-        )
+        ends = sorted({first, event - 1}) if first < event else []
+        ground = Ground(tuple(map(self._evidence, ends)), irreducible=True, stretch=True)
         changes = [*self._changes(finding, first, event)]
         right = changes[0] if changes else (None, ())
         legal = [edit for edit, later in changes if not later][:1]
@@ -65,7 +64,7 @@ class Samples:
             event=self._words(event),
             asked=None,
             statements=statements,
-            grounds=(replace(stretch, messages=tuple(sorted(stretch.messages, key=lambda m: m.index))),),
+            grounds=(ground,),
             right=right[0],
             later=right[1],
             edits=tuple(legal),
@@ -136,14 +135,15 @@ class Samples:
                 )
 
     def _dropped(self, first: int, event: int) -> Edit | None:
-        if first == event or self._new(first, event, []):
+        if self._new(first, event, []):
             return None
         return Edit("drop", self._messages[event].index, "the sample is not there")
 
     def _new(self, first: int, event: int, said: Sequence[TraceMessage]) -> set[int]:
         """The samples with findings that they did not have, when others are said in place of the event."""
         after = self._messages[event + 1 : event + 2 + AFTER]
-        before = self._from(first, event) if first < event else []
+        begin = min(first, max(0, event - 1))
+        before = self._from(begin, event) if begin < event else []
         here = self._messages[event]
         old = {mark for mark in self._told([*before, here, *after]) if mark[0] != here.index}
         return {int(index or 0) for index, _ in self._told([*before, *said, *after]) - old}
