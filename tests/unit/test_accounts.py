@@ -265,6 +265,18 @@ def test_a_request_without_an_answer_lacks_it(tmp_path: Path) -> None:
     ]
 
 
+def test_of_a_request_that_stands_there_twice_one_is_left_out(tmp_path: Path) -> None:
+    path, trace = tmp_path / "made.mcap", read_trace(traces_dir() / "two-clients.mcap")
+    with TraceWriter(path) as made:
+        made.add_profile(trace.profile)
+        for message in trace:
+            for number in range(2 if message.index == 5 else 1):
+                made.add(message.time + number, message.channel, message.data)
+    told_of = first_account(path, "protocol.invoke-id-reused")
+    assert [each.index for each in told_of.grounds[0].messages] == [5]
+    assert [(edit.kind, edit.index, edit.asked) for edit in told_of.edits] == [("drop", 6, None)]
+
+
 def test_a_recording_that_begins_late_is_explained_by_what_it_has(tmp_path: Path) -> None:
     path = without("faulty-select.mcap", -1, tmp_path / "made.mcap", begin=38)
     told_of = first_account(path, "select.selected-active")

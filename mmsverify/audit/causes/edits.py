@@ -287,14 +287,15 @@ def _tells_status(pdu: Pdu | None) -> bool:
     return pdu is not None and isinstance(pdu.detail, Mapping) and "robotVMDState" in pdu.detail
 
 
-def dropped(talk: Conversation, event: int) -> Edit:
-    """The event left out, with its request: only where nothing else stands between them."""
+def dropped(talk: Conversation, event: int) -> Iterator[Edit]:
+    """The event left out: a request alone, which may stand there twice, or the service with its answer."""
     positions = talk.turns[talk.turn_of[event]].positions if talk.turn_of[event] >= 0 else (event,)
-    begin, resume = positions[0], positions[-1] + 1
-    said = tuple(talk.messages[at] for at in range(begin, resume) if at not in positions)
-    both = len(positions) > 1
-    what = "the service is not asked for" if both else "it is not said"
-    return Edit("drop", event, begin, resume, said, what)
+    if event != positions[-1] or len(positions) == 1:
+        yield Edit("drop", event, event, event + 1, (), "it is not said")
+    if len(positions) > 1:
+        begin, resume = positions[0], positions[-1] + 1
+        said = tuple(talk.messages[at] for at in range(begin, resume) if at not in positions)
+        yield Edit("drop", positions[-1], begin, resume, said, "the service is not asked for")
 
 
 def programs(talk: Conversation, finding: Finding) -> list[str]:

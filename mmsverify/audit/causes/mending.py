@@ -55,7 +55,7 @@ def mend(case: Case, turns: Iterable[int], arms: Sequence[str]) -> Mended:
             statuses(talk, event),
         ),
         earlier,
-        iter([dropped(talk, event)]),
+        dropped(talk, event),
     ]
     edits = [edit for kind in kinds if (edit := search.first(kind)) is not None]
     right, then = search.right or (None, ())

@@ -102,7 +102,8 @@ class Robots:
 
     def _edit(self, edit: edits.Edit) -> Edit:
         said = () if edit.kind == "drop" else tuple((each.topic, each.data) for each in edit.said)
-        request = self._talk.request(edit.at) if edit.kind != "insert" else None
+        with_request = edit.kind == "change" or (edit.kind == "drop" and edit.begin < edit.at)
+        request = self._talk.request(edit.at) if with_request else None
         asked = None if request is None else self._index(request)
         return Edit(edit.kind, self._index(edit.at), edit.words, said, asked)
 
