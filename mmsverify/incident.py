@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from mmsverify.results import Account
+
 GAP = "gap"
 CLIENT, SERVER = "client", "server"
 
@@ -103,9 +105,11 @@ class Dossier:
     """What a report shows beside an audit: its incidents by path, what the cited statements say, by whom.
 
     ``statements`` are in the project's words, by id. ``judged`` are name and value of what the result rests
-    on: model, variant, profile, version.
+    on: model, variant, profile, version. ``accounts`` tell why findings stand, by path, index and rule: of
+    the first findings only, for each takes a second or more.
     """
 
     incidents: Mapping[str, Incident] = field(default_factory=dict)
     statements: Mapping[str, str] = field(default_factory=dict)
     judged: Sequence[tuple[str, str]] = ()
+    accounts: Mapping[tuple[str, int | None, str], Account] = field(default_factory=dict)

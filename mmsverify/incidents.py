@@ -19,6 +19,7 @@ from mmsverify.audit.replay import Replay
 from mmsverify.audit.saying import Reader
 from mmsverify.audit.spoken import Listener
 from mmsverify.errors import InputError
+from mmsverify.explaining import explain_findings
 from mmsverify.formats.locations import Location, located
 from mmsverify.formats.mcap import McapTrace, read_trace
 from mmsverify.formats.trace import TraceMessage
@@ -28,7 +29,7 @@ from mmsverify.profiles import for_recording, within_framework
 from mmsverify.register.readings import read_readings
 from mmsverify.register.statements import read_statements
 from mmsverify.resources import models_dir
-from mmsverify.results import Audit, Finding
+from mmsverify.results import Account, Audit, Finding
 
 __all__ = ["dossier", "reconstruct", "statements", "timeline"]
 
@@ -37,6 +38,8 @@ REPORTING = frozenset({b"\xa1", b"\xa3"})
 """What the PDUs begin with that a robot's status comes in: a response, and what nobody has asked for."""
 BEFORE, AFTER = 8, 3
 """So many messages of the device before that of a finding, and after it, are shown."""
+MOST_EXPLAINED, MOST_ACCOUNTS = 8, 40
+"""Findings of one recording, and of an audit, of which it is found out why they stand: that takes seconds."""
 MOST_WINDOWS = 400
 """Findings of one recording whose surroundings are kept."""
 BLOCK = 1 << 20
@@ -95,7 +98,25 @@ def dossier(
     models = sorted({device.model for each in incidents.values() for device in each.devices})
     judged = [("model", ", ".join(models)), ("variant", variant)]
     judged.append(("profile", str(profile) if profile else "what each recording says of itself"))
-    return Dossier(incidents, statements(audit, models), judged)
+    accounts = _accounts(audit, incidents, profile, variant)
+    return Dossier(incidents, statements(audit, models), judged, accounts)
+
+
+def _accounts(
+    audit: Audit, paths: Iterable[str], profile: Path | None, variant: str
+) -> dict[tuple[str, int | None, str], Account]:
+    """Why the first findings of each recording stand: of each rule and device the first."""
+    told: dict[tuple[str, int | None, str], Account] = {}
+    for path in paths:
+        own = sorted((f for f in audit.findings if f.path == path), key=lambda found: found.index or 0)
+        first = {(found.vmd, found.rule): found for found in reversed(own) if found.index is not None}
+        some = sorted(first.values(), key=lambda found: found.index or 0)[:MOST_EXPLAINED]
+        for account in explain_findings(path, some, profile=profile, variant=variant) if some else ():
+            found = account.finding
+            told[found.path, found.index, found.rule] = account
+        if len(told) >= MOST_ACCOUNTS:
+            break
+    return told
 
 
 def statements(audit: Audit, models: Sequence[str] = (ROBOT, FRAMEWORK, SIGNALS)) -> dict[str, str]:

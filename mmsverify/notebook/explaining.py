@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 
-from mmsverify.explaining import explain_sample
+from mmsverify.errors import InputError
+from mmsverify.explaining import explain_findings, explain_sample
 from mmsverify.incident import Saying
 from mmsverify.incidents import statements
-from mmsverify.report.finding_text import as_html, as_text
-from mmsverify.results import Audit, Explanation, Finding
+from mmsverify.report.finding_text import Known, as_html, as_text
+from mmsverify.results import Account, Audit, Explanation, Finding
 
 SAMPLE = "sample"
 
@@ -32,13 +34,23 @@ class Explained:
 
 
 def explained(finding: Finding, sayings: Sequence[Saying], profile: Path | None, variant: str) -> Explained:
-    """A finding with the statements that it cites, the messages that it refers to, the legal way if any."""
+    """A finding with the statements that it cites, why it stands, what it refers to, the legal way if any."""
     cited = statements(Audit([], [finding]))
     related = [said for said in sayings if said.index in finding.related]
     itself = next((said for said in sayings if said.index == finding.index), None)
     way = _way(finding, itself, profile, variant)
-    told = finding, cited, related, itself, way
-    return Explained(finding, as_text(*told), as_html(*told))
+    account = _account(finding, profile, variant)
+    known = Known(finding, cited, related, itself, way, account)
+    return Explained(finding, as_text(known), as_html(known))
+
+
+def _account(finding: Finding, profile: Path | None, variant: str) -> Account | None:
+    """Why it stands; nothing of a file that cannot be read, which says so itself."""
+    if finding.index is None:
+        return None
+    with suppress(InputError):
+        return explain_findings(finding.path, [finding], profile=profile, variant=variant)[0]
+    return None
 
 
 def _way(finding: Finding, itself: Saying | None, profile: Path | None, variant: str) -> Explanation | None:

@@ -10,8 +10,8 @@ from mmsverify.report.wording import printable
 from mmsverify.results import Account, Edit, Evidence, Ground
 
 WIDTH, LABEL = 100, 12
-MOST_MESSAGES = 8
-"""So many of one set are told; the JSON holds all."""
+MOST_MESSAGES, MOST_OTHERS = 8, 4
+"""So many messages of one set, and so many further sets on a page; the JSON holds all."""
 
 
 def render(path: str, index: int, accounts: Sequence[Account]) -> str:
@@ -25,6 +25,40 @@ def render(path: str, index: int, accounts: Sequence[Account]) -> str:
 def account(told: Account) -> str:
     """One account, without a line feed at its end."""
     return "\n".join(_lines(told))
+
+
+def facts(account: Account) -> Iterator[tuple[str, list[str]]]:
+    """What was found out by replaying, as labels with lines: for pages that tell the rest themselves."""
+    if account.grounds:
+        yield "because", [because(account.grounds[0]), *_numbered(account.grounds[0])]
+    others = [line for ground in account.grounds[1 : MOST_OTHERS + 1] for line in _numbered(ground)]
+    if others:
+        yield "excluded as well by", others
+    right = (
+        []
+        if account.right is None or account.right in account.edits
+        else [_unrelieved(account.right, account)]
+    )
+    legal = [edited(edit) for edit in account.edits] + right
+    if legal:
+        yield "nearest legal", legal
+    if account.remarks:
+        yield "remark", list(account.remarks)
+
+
+def _numbered(ground: Ground) -> list[str]:
+    """The messages of one set in a line each, the later ones of a set of several after an "and"."""
+    lines = [
+        f"{'and ' * (number > 0)}message {each.index}: {evidence(each)}"
+        for number, each in enumerate(ground.messages[:MOST_MESSAGES])
+    ]
+    rest = len(ground.messages) - MOST_MESSAGES
+    return [*lines, *([f"and {rest} more"] if rest > 0 else [])]
+
+
+def _unrelieved(edit: Edit, account: Account) -> str:
+    later = ", ".join(f"#{index}" for index in account.later)
+    return f"{edited(edit)}; but then {later} would be wrong"
 
 
 def _lines(account: Account) -> Iterator[str]:
@@ -43,7 +77,7 @@ def _lines(account: Account) -> Iterator[str]:
     yield from _told("legal here", " or ".join(finding.expected))
     yield from _right(account)
     for number, edit in enumerate(account.edits):
-        yield from _told("one edit" if number == 0 else "or", _edit(edit))
+        yield from _told("one edit" if number == 0 else "or", edited(edit))
     for remark in account.remarks:
         yield from _told("remark", remark)
 
@@ -58,7 +92,7 @@ def _unknown(account: Account) -> list[str]:
 def _grounds(account: Account) -> Iterator[str]:
     """The smallest set in full, then the others: first those of one message each, under one heading."""
     for ground in account.grounds[:1]:
-        yield from _told("because", _because(ground))
+        yield from _told("because", because(ground))
         yield from _messages(ground)
         if len(ground.messages) > 1:
             yield from _told("earliest", f"#{ground.earliest}")
@@ -77,11 +111,11 @@ def _grounds(account: Account) -> Iterator[str]:
 
 def _messages(ground: Ground) -> Iterator[str]:
     for message in ground.messages[:MOST_MESSAGES]:
-        yield from _told("", _evidence(message), bullet=f"#{message.index}")
+        yield from _told("", evidence(message), bullet=f"#{message.index}")
     yield from _told("", f"and {rest} more" if (rest := len(ground.messages) - MOST_MESSAGES) > 0 else "")
 
 
-def _because(ground: Ground) -> str:
+def because(ground: Ground) -> str:
     count = len(ground.messages)
     if not count:
         return "no earlier message is needed: it is wrong by itself, or with its own request"
@@ -93,7 +127,7 @@ def _because(ground: Ground) -> str:
     return f"{what}, whatever the others say{fewer}:"
 
 
-def _evidence(message: Evidence) -> str:
+def evidence(message: Evidence) -> str:
     asked = "" if message.asked is None else f" (asked in #{message.asked})"
     return f"{message.words}{asked}"
 
@@ -102,11 +136,10 @@ def _right(account: Account) -> Iterator[str]:
     """What the event should have been, where the whole would not be legal with it."""
     if account.right is None or account.right in account.edits:
         return
-    later = ", ".join(f"#{index}" for index in account.later)
-    yield from _told("right", f"{_edit(account.right)}; but then {later} would be wrong")
+    yield from _told("right", _unrelieved(account.right, account))
 
 
-def _edit(edit: Edit) -> str:
+def edited(edit: Edit) -> str:
     if edit.kind == "insert":
         return f"put in before #{edit.index}: {edit.words}"
     if edit.kind == "drop":

@@ -49,7 +49,7 @@ ALLOWED = {
 ROOTS = {
     "auditing": ALLOWED.keys() - {"symbolic", "graph", "report"},
     "explaining": ALLOWED.keys() - {"symbolic", "graph", "report", "fleet"} | {"register"},
-    "incidents": ALLOWED.keys() - {"symbolic", "graph", "report", "fleet"} | {"register"},
+    "incidents": ALLOWED.keys() - {"symbolic", "graph", "report", "fleet"} | {"register", "explaining"},
     "annotating": ALLOWED.keys() - {"symbolic", "graph", "fleet"} | {"incidents"},
     "timelines": ALLOWED.keys() - {"symbolic", "graph"} | {"auditing", "incidents"},
     "checking": ALLOWED.keys() - {"graph", "report"},

@@ -8,6 +8,7 @@ from mmsverify.incident import Dossier, Incident, Saying
 from mmsverify.report.html.numbered import Numbered
 from mmsverify.report.html.sequence import chart
 from mmsverify.report.html.text import clock, element, folded, pairs, text
+from mmsverify.report.html.why import why
 from mmsverify.report.wording import cells
 from mmsverify.results import Finding
 
@@ -19,9 +20,10 @@ MOST_OCTETS = 512
 def whole(each: Numbered, dossier: Dossier) -> str:
     """Everything about one finding."""
     finding, incident = each.finding, dossier.incidents.get(each.finding.path)
+    account = dossier.accounts.get((finding.path, finding.index, finding.rule))
     inside = (
         f"{_head(each)}{element('p', text(finding.message), class_='message')}\n"
-        f"{pairs(_told(finding, dossier.statements))}"
+        f"{pairs([*_told(finding, dossier.statements), *why(account)])}"
         f"{_around(finding, incident)}{_event(finding, incident)}{_before(finding)}"
     )
     return element("article", inside, **_marks(each)) + "\n"
