@@ -63,7 +63,7 @@ def timeline(line: DeviceLine, findings: Sequence[Numbered]) -> str:
         aria_label=f"Timeline of {line.device}",
     )  # fmt: skip
     about = f"{counted(line.messages, 'message')}, {counted(len(line.gaps), 'gap')}"
-    ends = "".join(f"<span>{clock(line.begin + span * quarter // 4)}</span>" for quarter in range(5))
+    ends = "".join(f"<span>{clock(_whole(line.begin + span * quarter // 4))}</span>" for quarter in range(5))
     inside = (
         f'<div class="lane-names">{labels}</div>'
         f'<div class="lanes-window" tabindex="0" role="group" aria-label="Timeline: plus and minus zoom, '
@@ -74,6 +74,11 @@ def timeline(line: DeviceLine, findings: Sequence[Numbered]) -> str:
         "div", f'<div class="lanes-box">{inside}</div>{below}', class_="timeline",
         data_begin=line.begin, data_end=line.end,
     ) + "\n"  # fmt: skip
+
+
+def _whole(time: int) -> int:
+    """To the millisecond: the axis is no finer."""
+    return time // 1_000_000 * 1_000_000
 
 
 def _lane(lane: Lane, line: DeviceLine, span: int) -> str:
