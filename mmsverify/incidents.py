@@ -14,8 +14,9 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
+from mmsverify.audit.lookahead import link
 from mmsverify.audit.parts import FRAMEWORK, ROBOT, SIGNALS
-from mmsverify.audit.replay import Replay
+from mmsverify.audit.replay import SAMPLES, Replay
 from mmsverify.audit.saying import Reader
 from mmsverify.audit.spoken import Listener
 from mmsverify.errors import InputError
@@ -43,7 +44,9 @@ MOST_EXPLAINED, MOST_ACCOUNTS = 8, 40
 MOST_WINDOWS = 400
 """Findings of one recording whose surroundings are kept."""
 BLOCK = 1 << 20
-Kept = tuple[str, int, TraceMessage]
+Place = tuple[str, str]
+"""A device and the model that judges it."""
+Kept = tuple[Place, int, TraceMessage]
 """A message with its device, and the number that it has among that device's messages."""
 
 
@@ -135,7 +138,7 @@ def statements(audit: Audit, models: Sequence[str] = (ROBOT, FRAMEWORK, SIGNALS)
 class Watched:
     """A watch over all devices: what is known of each, kept where it changes."""
 
-    lanes: dict[tuple[str, str], dict[str, list[Change]]] = field(default_factory=dict)
+    lanes: dict[Place, dict[str, list[Change]]] = field(default_factory=dict)
 
     def begin(self) -> None:
         """All begins again."""
@@ -181,32 +184,43 @@ def _devices(
     except InputError:
         pass  # the audit has told of it; what was read until then is shown
     spans = _spans(trace, surroundings)
-    by_device = {device: (model, lanes) for (device, model), lanes in watched.lanes.items()}
-    return [_line(name, span, *by_device.get(name, (SIGNALS, {}))) for name, span in spans.items() if name]
+    return [_line(place, span, watched.lanes.get(place, {})) for place, span in spans.items() if place[0]]
 
 
-def _line(device: str, span: Span, model: str, lanes: Mapping[str, list[Change]]) -> DeviceLine:
+def _line(place: Place, span: Span, lanes: Mapping[str, list[Change]]) -> DeviceLine:
     reported = {REPORTED: span.reported, **lanes}
     shown = [Lane(name, tuple(changes)) for name, changes in reported.items() if changes]
-    return DeviceLine(device, model, span.begin, span.end, span.messages, shown, tuple(span.links))
+    return DeviceLine(*place, span.begin, span.end, span.messages, shown, tuple(span.links))
 
 
-def _spans(trace: McapTrace, surroundings: Surroundings) -> dict[str, Span]:
+def _spans(trace: McapTrace, surroundings: Surroundings) -> dict[Place, Span]:
     """When each device was heard; on the way, what was said around the findings is taken down."""
-    spans: dict[str, Span] = {}
+    spans: dict[Place, Span] = {}
     for message in _readable(trace):
-        names = message.metadata
-        device = names.get("vmd") or names.get("controller") or names.get("name") or ""
-        span = spans.get(device)
+        place = _place(message)
+        span = spans.get(place)
         if span is None:
-            span = spans[device] = Span(message.time)
+            span = spans[place] = Span(message.time)
         span.end = message.time
         span.messages += 1
         if message.data[:1] in REPORTING and message.message_encoding == "mms-ber":
             span.report(message)
-        surroundings.pass_by(device, message, span)
+        surroundings.pass_by(place, message, span)
     surroundings.end()
     return spans
+
+
+def _place(message: TraceMessage) -> Place:
+    """Whose message it is, and which model judges it; a name may be that of a robot and of a controller."""
+    names = message.metadata
+    if message.message_encoding == "mms-ber":
+        return names.get("vmd", ""), ROBOT
+    if message.message_encoding == "modbus-tcp":
+        return names.get("controller", ""), SIGNALS
+    if message.schema_name == SAMPLES:
+        return names.get("controller", ""), FRAMEWORK
+    roles = {"mms": ROBOT, "modbus": SIGNALS}
+    return next(((names.get("name", ""), roles[role]) for role in roles if link(message, role)), ("", ""))
 
 
 def _readable(trace: McapTrace) -> Iterator[TraceMessage]:
@@ -237,11 +251,11 @@ class Surroundings:
         self.windows: dict[int, list[int]] = {index: [] for index, _ in centres}
         self._related = dict(centres)
         self._alone = sorted({other for _, related in centres for other in related})
-        self._lately: dict[str, deque[Kept]] = {}
-        self._open: dict[str, list[int]] = {}
+        self._lately: dict[Place, deque[Kept]] = {}
+        self._open: dict[Place, list[int]] = {}
         self._kept: dict[int, Kept] = {}
 
-    def pass_by(self, device: str, message: TraceMessage, span: Span) -> None:
+    def pass_by(self, device: Place, message: TraceMessage, span: Span) -> None:
         """The next message, of that device."""
         if message.schema_name == "link.Event":
             said = Reader().saying(message)
@@ -271,7 +285,7 @@ class Surroundings:
 
     def end(self) -> None:
         """All have passed: put what was kept in words."""
-        readers: dict[str, tuple[int, Reader]] = {}
+        readers: dict[Place, tuple[int, Reader]] = {}
         for index, (device, number, message) in sorted(self._kept.items()):
             last, reader = readers.get(device, (0, Reader()))
             if number != last + 1:  # of messages in between, nobody knows which answers are whose

@@ -114,6 +114,18 @@ def test_links_and_gaps_stand_on_the_timeline(tmp_path: Path) -> None:
     assert [gap.time for gap in line.gaps] == [2000]
 
 
+def test_a_name_may_be_that_of_a_robot_and_of_a_controller(tmp_path: Path) -> None:
+    path = tmp_path / "same.mcap"
+    with TraceWriter(path) as trace:
+        for message in read_trace(sample("faulty-select")):
+            trace.add(message.time, message.channel, message.data)
+            trace.add(message.time, Channel.vr("weld3", "polled"), b'{"C_RunMD":0}')
+    lines = {line.model: line for line in timeline(path)}
+    assert (lines["mms-robot"].messages, lines["vr-template"].messages) == (65, 65)
+    assert "selected" in {lane.name for lane in lines["mms-robot"].lanes}
+    assert lines["vr-template"].lanes[0].name == "mode"
+
+
 def test_octets_that_nobody_can_read_have_a_fault(tmp_path: Path) -> None:
     path = tmp_path / "bad.mcap"
     with TraceWriter(path) as trace:

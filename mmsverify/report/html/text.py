@@ -1,4 +1,4 @@
-"""Texts and elements of a page: the only place where something becomes markup."""
+"""Texts and elements of the report: the only place where something of it becomes markup."""
 
 from __future__ import annotations
 
