@@ -24,6 +24,7 @@ from mmsverify.audit.vr import SCAN, Controller, Stage
 from mmsverify.errors import InputError, MmsverifyError, UsageError
 from mmsverify.formats.locations import Location, located
 from mmsverify.formats.mcap import McapTrace, read_trace
+from mmsverify.formats.stretch import DisorderError
 from mmsverify.formats.trace import TraceMessage
 from mmsverify.profiles import for_recording, within_framework
 from mmsverify.register.readings import read_readings
@@ -98,6 +99,14 @@ def _step(stage: Stage) -> PathStep:
     return PathStep(name, {}, cited, {"mode": stage.mode, "status": stage.status})
 
 
+def _looked_ahead(trace: McapTrace) -> Lookahead:
+    """What the recording shows later, whatever the order of the file."""
+    try:
+        return Lookahead(trace)
+    except DisorderError:
+        return Lookahead(trace, merged=True)
+
+
 def explain_finding(
     path: str | Path | Location, finding: Finding, *, profile: Path | None = None, variant: str = "repaired"
 ) -> Account:
@@ -150,7 +159,7 @@ class _Explaining:
         self._trace = trace
         tables = within_framework(for_recording(profile, trace.profile, trace.path))
         self._parts = Parts(tables, variant, of_thread(), trace.path)
-        self._ahead = Lookahead(trace)
+        self._ahead = _looked_ahead(trace)
 
     def accounts(self, findings: Sequence[tuple[int, Finding]], before: int) -> dict[int, Account]:
         """The accounts of those findings that come of so many messages before them."""

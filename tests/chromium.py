@@ -26,8 +26,9 @@ def missing(why: str) -> None:
     pytest.skip(why)
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="module")
 def browser() -> Iterator[Browser]:
+    """One for a module, and no longer: while it runs, so does an event loop, and others want their own."""
     try:
         from playwright.sync_api import Error, sync_playwright
     except ImportError:

@@ -372,3 +372,13 @@ def test_names_out_of_a_recording_cannot_move_the_cursor(
         made.add(1, Channel.modbus("robot\x1b[2J", "panel\x1b[1m", "server"), bytes.fromhex("0001"))
     assert main(["explain", str(path), "0"]) == 1
     assert "\x1b" not in capsys.readouterr().out
+
+
+def test_the_order_of_the_file_does_not_matter(tmp_path: Path) -> None:
+    messages = list(read_trace(traces_dir() / "faulty-vmd-stop.mcap"))
+    path = tmp_path / "disorder.mcap"
+    with TraceWriter(path) as trace:
+        for message in [*messages[10:], *messages[:10]]:
+            trace.add(message.time, message.channel, message.data)
+    found = audit_traces([path], profile=None, model=None).findings
+    assert [account.finding for account in explain_findings(path, found)] == list(found)

@@ -92,7 +92,7 @@ def conversation(messages: Iterable[TraceMessage]) -> Conversation:
         if pdu.kind in ("confirmed-RequestPDU", INITIATE, CONCLUDE):
             waiting[name, side, _number(pdu)] = at
         elif pdu.kind in OF_REQUESTS or pdu.kind in INITIATED or pdu.kind in CONCLUDED:
-            asked = waiting.pop((name, OTHER_SIDE[side], _number(pdu)), None)
+            asked = waiting.pop((name, OTHER_SIDE.get(side, ""), _number(pdu)), None)
             if asked is not None:
                 partner[asked] = at
     answers = set(partner.values())

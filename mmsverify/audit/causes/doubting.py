@@ -75,7 +75,7 @@ class Doubtful(Device):
         """Whether the message is doubted, or answers a request that is."""
         name, side = _who(message)
         if pdu.kind in OF_REQUESTS and pdu.invoke_id is not None:
-            return (name, OTHER_SIDE[side], pdu.invoke_id) in self._doubted or doubted
+            return (name, OTHER_SIDE.get(side, ""), pdu.invoke_id) in self._doubted or doubted
         if pdu.kind in ("initiate-ResponsePDU", "initiate-ErrorPDU"):
             return name in self._proposed or doubted
         return doubted
@@ -90,7 +90,7 @@ class Doubtful(Device):
             if known and side == "client":
                 self._ask(name, asked)
         elif pdu.kind in OF_REQUESTS and pdu.invoke_id is not None:
-            asked_for = self._doubted.pop((name, OTHER_SIDE[side], pdu.invoke_id), None)
+            asked_for = self._doubted.pop((name, OTHER_SIDE.get(side, ""), pdu.invoke_id), None)
             if asked_for is not None and known:
                 self._answer(name, asked_for, pdu, message)
         elif pdu.kind == "initiate-RequestPDU":

@@ -29,6 +29,7 @@ CONFLICT = ("service", 2)
 """Object state conflict: why a robot refuses what its state does not allow."""
 UNRECOGNISED = ("confirmed-request", 1)
 OTHER: Mapping[str, Literal["client", "server"]] = {"client": "server", "server": "client"}
+SIDES = frozenset(OTHER)
 MOST_NAMES = 4
 MOST_CHANGED = 12
 """Values of earlier messages, or of one message, that are tried at most."""
@@ -188,10 +189,10 @@ def inserted(talk: Conversation, event: int, programs: Sequence[str], arms: Sequ
     """
     request = talk.request(event)
     begin = event if request is None else request
-    names = talk.messages[event].metadata
+    whose = talk.messages[event].channel
     number = 1 + max((pdu.invoke_id or 0 for pdu in talk.pdus if pdu is not None), default=0)
     for service, body, detail, said in _services(programs, arms):
-        channels = [Channel.mms(names["vmd"], names["association"], side) for side in ("client", "server")]
+        channels = [_side(whose, side) for side in ("client", "server")]
         pdus = (
             Pdu("confirmed-RequestPDU", number, service, body, detail),
             Pdu("confirmed-ResponsePDU", number, service, SILENT[service]),
@@ -208,6 +209,19 @@ def inserted(talk: Conversation, event: int, programs: Sequence[str], arms: Sequ
         yield Edit("insert", begin, begin, begin, made, f"{said}, answered result(+)")
 
 
+def _side(channel: Channel, sender: str) -> Channel:
+    """The channel of that side of the association; its names need not be such as a recorder would give."""
+    if channel.metadata.get("sender", "client") == sender:
+        return channel
+    begin, _, end = channel.topic.rpartition("/")
+    topic = f"{begin}/{sender}" if end in SIDES else f"{channel.topic}/{sender}"
+    return replace(channel, topic=topic, metadata={**channel.metadata, "sender": sender})
+
+
+def _other(message: TraceMessage) -> str:
+    return OTHER.get(message.metadata.get("sender", "client"), "server")
+
+
 def answered(talk: Conversation, event: int) -> Iterator[Edit]:
     """An answer to a request that has none, at once."""
     pdu, turn = talk.pdus[event], talk.turn_of[event]
@@ -215,8 +229,8 @@ def answered(talk: Conversation, event: int) -> Iterator[Edit]:
         return
     if event + 1 == len(talk.messages):
         return
-    names, at = talk.messages[event].metadata, talk.messages[event]
-    channel = Channel.mms(names["vmd"], names["association"], OTHER[names["sender"]])
+    at = talk.messages[event]
+    channel = _side(at.channel, _other(at))
     told = [Pdu("confirmed-ErrorPDU", pdu.invoke_id, body={"serviceError": {"errorClass": CONFLICT}})]
     if pdu.service in SILENT:
         told.insert(0, Pdu("confirmed-ResponsePDU", pdu.invoke_id, pdu.service, SILENT[pdu.service]))
@@ -233,8 +247,8 @@ def asked_for(talk: Conversation, event: int) -> Iterator[Edit]:
     if pdu is None or not talk.answers_nothing(event) or pdu.service is None:
         return
     like = [each for each in talk.pdus if each is not None and each.service == pdu.service]
-    names, at = talk.messages[event].metadata, talk.messages[event]
-    channel = Channel.mms(names["vmd"], names["association"], OTHER[names["sender"]])
+    at = talk.messages[event]
+    channel = _side(at.channel, _other(at))
     for request in like:
         if request.kind == "confirmed-RequestPDU":
             made = mms.encode(replace(request, invoke_id=pdu.invoke_id))
@@ -272,9 +286,9 @@ def statuses(talk: Conversation, event: int) -> Iterator[Edit]:
     found = next((at for at in range(begin, -1, -1) if _tells_status(talk.pdus[at])), None)
     if found is None:
         return
-    last, names = talk.pdus[found], talk.messages[event].metadata
+    last = talk.pdus[found]
     assert last is not None
-    channel = Channel.mms(names["vmd"], names["association"], "server")
+    channel = _side(talk.messages[event].channel, "server")
     well = {"vmdLogicalStatus": 0, "vmdPhysicalStatus": 0}
     plain = Pdu("unconfirmed-PDU", None, "unsolicitedStatus", well, last.detail)
     for told, what in _status(plain, last.detail):
