@@ -35,6 +35,8 @@ class Lane:
 class DeviceLine:
     """What is known of one device while a recording goes by; from message to message, by its ``model``.
 
+    The model is empty where none was asked to judge the device.
+
     ``begin`` and ``end`` (ns) are those of its messages, ``messages`` how many they are. ``links`` are the
     connections' events: words such as ``open cell-controller``; of a ``gap`` messages may be missing.
     """
@@ -60,7 +62,7 @@ class Saying:
     ``sender`` is ``client`` or ``server``, or empty where nobody sends it (a sample, a link event).
     ``partner`` is the association or connection. ``answers`` is the index of the request, where it answers
     one that is known. ``fields`` are the decoded values, by their dotted path; ``fault`` says why octets
-    could not be read.
+    could not be read. ``number`` is the message's among those of its device, from 1 (0: not known).
     """
 
     index: int
@@ -74,6 +76,7 @@ class Saying:
     answers: int | None = None
     fields: Sequence[tuple[str, str]] = ()
     fault: str = ""
+    number: int = 0
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from bisect import bisect_left
 from collections import defaultdict, deque
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 
@@ -24,7 +24,7 @@ from mmsverify.explaining import explain_findings
 from mmsverify.formats.locations import Location, located
 from mmsverify.formats.mcap import McapTrace, read_trace
 from mmsverify.formats.trace import TraceMessage
-from mmsverify.incident import Change, DeviceLine, Dossier, Incident, Lane, Origin, Saying
+from mmsverify.incident import SERVER, Change, DeviceLine, Dossier, Incident, Lane, Origin, Saying
 from mmsverify.model.load import find
 from mmsverify.profiles import for_recording, within_framework
 from mmsverify.register.readings import read_readings
@@ -93,30 +93,36 @@ def dossier(
     Of a recording that cannot be read any more there is nothing to show; its findings stand.
     """
     incidents: dict[str, Incident] = {}
+    by_path: dict[str, list[Finding]] = {}
+    for found in audit.findings:
+        by_path.setdefault(found.path, []).append(found)
     for entry in audit.inputs:
+        own = by_path.get(entry.path, [])
         with suppress(InputError):
             incidents[entry.path] = reconstruct(
-                entry.path, audit.findings, profile=profile, model=model, variant=variant
+                entry.path, own, profile=profile, model=model, variant=variant
             )
-    models = sorted({device.model for each in incidents.values() for device in each.devices})
+    models = sorted({device.model for each in incidents.values() for device in each.devices} - {""})
     judged = [("model", ", ".join(models)), ("variant", variant)]
     judged.append(("profile", str(profile) if profile else "what each recording says of itself"))
-    accounts = _accounts(audit, incidents, profile, variant)
-    return Dossier(incidents, statements(audit, models), judged, accounts)
+    accounts = _accounts({path: by_path.get(path, []) for path in incidents}, profile, variant)
+    return Dossier(incidents, statements(audit), judged, accounts)
 
 
 def _accounts(
-    audit: Audit, paths: Iterable[str], profile: Path | None, variant: str
+    by_path: Mapping[str, Sequence[Finding]], profile: Path | None, variant: str
 ) -> dict[tuple[str, int | None, str], Account]:
     """Why the first findings of each recording stand: of each rule and device the first."""
     told: dict[tuple[str, int | None, str], Account] = {}
-    for path in paths:
-        own = sorted((f for f in audit.findings if f.path == path), key=lambda found: found.index or 0)
+    for path, findings in by_path.items():
+        own = sorted(findings, key=lambda found: found.index or 0)
         first = {(found.vmd, found.rule): found for found in reversed(own) if found.index is not None}
         some = sorted(first.values(), key=lambda found: found.index or 0)[:MOST_EXPLAINED]
-        for account in explain_findings(path, some, profile=profile, variant=variant) if some else ():
-            found = account.finding
-            told[found.path, found.index, found.rule] = account
+        try:
+            accounts = explain_findings(path, some, profile=profile, variant=variant) if some else []
+        except Exception:  # an account is an addition: whatever is wrong with one, the report must be had
+            accounts = []
+        told |= {(a.finding.path, a.finding.index, a.finding.rule): a for a in accounts}
         if len(told) >= MOST_ACCOUNTS:
             break
     return told
@@ -169,7 +175,11 @@ class Span:
     def report(self, message: TraceMessage) -> None:
         """Take down the robot state that a message reports, whatever is thought of it."""
         event = Listener().event(message)
-        if event.robot_state and (self.reported[-1].words if self.reported else "") != event.robot_state:
+        if (
+            event.sender == SERVER
+            and event.robot_state
+            and (self.reported[-1].words if self.reported else "") != event.robot_state
+        ):
             self.reported.append(Change(message.index, message.time, event.robot_state))
 
 
@@ -184,13 +194,20 @@ def _devices(
     except InputError:
         pass  # the audit has told of it; what was read until then is shown
     spans = _spans(trace, surroundings)
-    return [_line(place, span, watched.lanes.get(place, {})) for place, span in spans.items() if place[0]]
+    return [
+        _line(place, span, watched.lanes.get(place, {}), judged=model in (None, place[1]))
+        for place, span in spans.items()
+        if place[1]
+    ]
 
 
-def _line(place: Place, span: Span, lanes: Mapping[str, list[Change]]) -> DeviceLine:
+def _line(place: Place, span: Span, lanes: Mapping[str, list[Change]], *, judged: bool) -> DeviceLine:
     reported = {REPORTED: span.reported, **lanes}
     shown = [Lane(name, tuple(changes)) for name, changes in reported.items() if changes]
-    return DeviceLine(*place, span.begin, span.end, span.messages, shown, tuple(span.links))
+    name, model = place
+    return DeviceLine(
+        name, model if judged else "", span.begin, span.end, span.messages, shown, tuple(span.links)
+    )
 
 
 def _spans(trace: McapTrace, surroundings: Surroundings) -> dict[Place, Span]:
@@ -291,7 +308,7 @@ class Surroundings:
             if number != last + 1:  # of messages in between, nobody knows which answers are whose
                 reader = Reader()
             readers[device] = number, reader
-            self.sayings[index] = reader.saying(message)
+            self.sayings[index] = replace(reader.saying(message), number=number)
         for centre, window in self.windows.items():
             known = [index for index in self._related[centre] if index in self.sayings]
             window[:] = sorted({*window, *known})

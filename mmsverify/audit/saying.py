@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
 from typing import Any, NamedTuple
 
 from mmsverify.audit import words
@@ -14,8 +15,8 @@ from mmsverify.formats import mms, modbus, vr
 from mmsverify.formats.trace import TraceMessage
 from mmsverify.incident import Saying
 
-DEEPEST, LONGEST = 12, 200
-"""Levels of a PDU, and characters of a value, that are shown."""
+DEEPEST, LONGEST, MOST_FIELDS = 12, 200, 200
+"""Levels of a PDU, characters of a value, and values of a message, that are shown."""
 Fields = list[tuple[str, str]]
 
 
@@ -34,7 +35,12 @@ class Reader:
             return self._modbus(message)
         if message.schema_name == "vr.Sample":
             return _sample(message)
-        return _beside(message)
+        said = _beside(message)
+        self._listener.forget(said.device, said.partner)
+        self._asked = {
+            key: held for key, held in self._asked.items() if key[:2] != (said.device, said.partner)
+        }
+        return said
 
     def _mms(self, message: TraceMessage) -> Saying:
         event = self._listener.event(message)
@@ -42,7 +48,7 @@ class Reader:
         if event.fault:
             return who.says("octets that are no PDU", fault=event.fault)
         pdu = mms.decode(message.data)
-        fields = [*_shown(event), *flat(pdu.body, ()), *flat(pdu.detail, ("detail",))]
+        fields = [*_shown(event), *_some(flat(pdu.body, ())), *_some(flat(pdu.detail, ("detail",)))]
         fields += [("remark", remark) for remark in pdu.remarks]
         about = ", ".join(event.programs) or event.robot_state
         return who.says(_title(event.service, event.kind, event.answer), fields, event.answers, about=about)
@@ -59,7 +65,7 @@ class Reader:
         key = device, connection, adu.transaction
         fields = [("transaction", str(adu.transaction)), ("unit", str(adu.unit))]
         if who.sender == "client":
-            self._asked[key] = message.index, name
+            self._asked.setdefault(key, (message.index, name))
             asking = _request(adu)
             return who.says(
                 f"{name} request", fields + asking, about=" ".join(" ".join(f) for f in asking[:2])
@@ -93,9 +99,15 @@ class _Who(NamedTuple):
         return Saying(index, time, *who, title, data, about, answers, tuple(fields), fault)
 
 
+def _some(fields: Iterator[tuple[str, str]]) -> Fields:
+    """The first of many values."""
+    shown = list(islice(fields, MOST_FIELDS))
+    return [*shown, ("...", "and more")] if next(fields, None) is not None else shown
+
+
 def _title(service: str, kind: str, answer: str) -> str:
     if answer:
-        return f"{words.title(service) if service else 'request unknown'} {answer}"
+        return f"{words.title(service) if service else 'answer (request not shown)'} {answer}"
     if kind == "confirmed-RequestPDU":
         return f"{words.title(service)} request"
     return words.title(service) if service else kind.removesuffix("PDU").replace("-", " ").strip()
@@ -137,7 +149,8 @@ def _sample(message: TraceMessage) -> Saying:
     except DecodeError as error:
         return who.says("octets that are no sample", fault=str(error))
     fields = [(name, str(vr.plain(value))) for name, value in sample.cells.items()]
-    return who.says("sample", fields + [(bad.name, f"{bad.found} (no number)") for bad in sample.bad])
+    bad = [(each.name, f"{each.found} (no number)") for each in sample.bad]
+    return who.says("sample", _some(iter(fields)) + _some(iter(bad)))
 
 
 def _beside(message: TraceMessage) -> Saying:

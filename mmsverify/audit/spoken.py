@@ -7,6 +7,7 @@ from typing import Any
 
 from mmsverify.audit import robot
 from mmsverify.audit.exchange import OTHER_SIDE
+from mmsverify.audit.lookahead import link
 from mmsverify.errors import DecodeError
 from mmsverify.events import MmsEvent
 from mmsverify.formats import mms
@@ -30,6 +31,8 @@ class Listener:
         for message in messages:
             if message.message_encoding == "mms-ber":
                 yield self.event(message)
+            elif (happened := link(message)) is not None:
+                self.forget(message.metadata.get("name", ""), happened[0])
 
     def event(self, message: TraceMessage) -> MmsEvent:
         """One MMS message."""
@@ -42,7 +45,13 @@ class Listener:
             return MmsEvent(message.index, message.time, vmd, association, sender, "", fault=str(error))
         asking = sender if pdu.kind == "confirmed-RequestPDU" else OTHER_SIDE.get(sender, "")
         key = (vmd, association, asking, pdu.invoke_id)
-        asked = self._asked.pop(key, None) if pdu.kind in ANSWER else None
+        if pdu.kind == "initiate-RequestPDU":
+            self.forget(vmd, association)
+        asked = self._asked.get(key) if pdu.kind in ANSWER else None
+        if asked is not None and pdu.service not in (None, asked.service):
+            asked = None  # another service's answer is none to this request
+        elif asked is not None:
+            del self._asked[key]
         made = MmsEvent(
             message.index, message.time, vmd, association, sender, pdu.kind,
             service=pdu.service or (asked.service if asked else ""),
@@ -53,8 +62,12 @@ class Listener:
             **_status(pdu),
         )  # fmt: skip
         if pdu.kind == "confirmed-RequestPDU":
-            self._asked[key] = made
+            self._asked.setdefault(key, made)  # of two with one invokeID the first is answered first
         return made
+
+    def forget(self, vmd: str, association: str) -> None:
+        """The association begins, ends, or has a gap: what was asked on it will not be answered any more."""
+        self._asked = {key: held for key, held in self._asked.items() if key[:2] != (vmd, association)}
 
 
 def programs(pdu: Pdu) -> tuple[str, ...]:

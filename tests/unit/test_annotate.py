@@ -141,7 +141,8 @@ def test_the_state_is_told_where_it_changes_in_words_and_in_numbers(tmp_path: Pa
     states = told(annotated(tmp_path / "out.mcap", FAULTY), "/mmsverify/state/weld5")
     shown = [(s["robot_state"], s["robot_state_code"]) for s in states]
     assert ("ROBOT-EXECUTING", 3) in shown
-    assert ("unknown", -1) in shown
+    assert ("ROBOT-IDLE | ROBOT-LOADED", -2) in shown
+    assert ("unknown", -1) in {(s["program_R_CAL"], s["program_R_CAL_code"]) for s in states}
     assert ("MANUAL-INTERVENTION-REQUIRED", 5) in shown
     assert {(s["program_Weld_Roof"], s["program_Weld_Roof_code"]) for s in states} >= {
         ("RUNNING", 3), ("IDLE | STOPPED", -2),

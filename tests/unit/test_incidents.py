@@ -8,10 +8,10 @@ import pytest
 from mcap.writer import Writer
 
 from mmsverify.audit.replay import Replay
-from mmsverify.audit.saying import flat
+from mmsverify.audit.saying import MOST_FIELDS, Reader, flat
 from mmsverify.auditing import audit_traces
 from mmsverify.formats.mcap import TraceWriter, read_trace
-from mmsverify.formats.trace import Channel
+from mmsverify.formats.trace import Channel, TraceMessage
 from mmsverify.incident import Incident, Lane
 from mmsverify.incidents import AFTER, BEFORE, Watched, dossier, reconstruct, timeline
 from mmsverify.profiles import for_recording, within_framework
@@ -100,6 +100,32 @@ def test_requests_over_modbus_are_paired_by_their_transaction() -> None:
     assert shown[11].title == "write single coil exception 2"
     assert shown[11].answers == 10
     assert ("address", "961") in shown[10].fields
+
+
+def test_after_a_link_event_nothing_asked_before_is_answered() -> None:
+    reader = Reader()
+    asked, answer = list(read_trace(sample("faulty-select")))[40:42]
+    assert reader.saying(asked).title == "Select request"
+    assert reader.saying(answer).answers == 40
+    reader.saying(asked)
+    lost = b'{"connection":"cell-controller","role":"mms","event":"reset"}'
+    reader.saying(TraceMessage(42, answer.time, Channel.link("weld3"), lost))
+    assert reader.saying(answer).answers is None
+
+
+def test_alternatives_that_are_the_first_two_of_many_are_told() -> None:
+    robot = lanes(sample("production-run"), "weld7")
+    told = {change.words for change in robot["robot state"].changes}
+    assert any(words.startswith("ROBOT-IDLE | ROBOT-LOADED") for words in told)
+
+
+def test_a_message_of_many_values_is_not_told_without_end(tmp_path: Path) -> None:
+    path = tmp_path / "many.mcap"
+    with TraceWriter(path) as trace:
+        many = ",".join(f'"X{number}":1' for number in range(5000))
+        trace.add(1000, Channel.vr("press3", "scan"), f'{{{many},"C_RunMD":99}}'.encode())
+    (said,) = incident(path).sayings.values()
+    assert len(said.fields) <= MOST_FIELDS + 1
 
 
 def test_links_and_gaps_stand_on_the_timeline(tmp_path: Path) -> None:

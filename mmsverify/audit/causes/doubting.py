@@ -121,7 +121,7 @@ class Doubtful(Device):
         self.belief.states = distinct([*before, *self.belief.states])
 
     def _shown(self, message: TraceMessage, asked: Pdu, pdu: Pdu, request: Asked | None) -> Iterator[object]:
-        if pdu.kind not in ("confirmed-ResponsePDU", "unconfirmed-PDU"):
+        if pdu.kind not in ("confirmed-ResponsePDU", "unconfirmed-PDU") or pdu.service != asked.service:
             return
         slot = "" if request is None else request.slot
         match asked.service:

@@ -7,7 +7,7 @@ from functools import reduce
 
 from mmsverify.concrete.belief.ground import Ground
 from mmsverify.concrete.belief.partial import OTHER, Partial
-from mmsverify.concrete.belief.values import EITHER, NO, YES, Known, everything, join, plain
+from mmsverify.concrete.belief.values import NO, YES, Known, everything, join, plain
 from mmsverify.model.sorts import Sort
 
 UNKNOWN, NONE = "", "none"
@@ -50,7 +50,7 @@ def the_one(states: Sequence[Partial], relation: str, names: Iterable[str]) -> s
 
 def words(known: Known, sort: Sort) -> str:
     """A value or a few; ``UNKNOWN`` where it may be anything, or too much."""
-    if known in (everything(sort), EITHER):
+    if known == everything(sort):
         return UNKNOWN
     listed = plain(known, sort)
     return ALTERNATIVES.join(map(_spoken, listed)) if 0 < len(listed) <= MOST else UNKNOWN

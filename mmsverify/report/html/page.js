@@ -151,7 +151,7 @@ if (zoom) {
 // A link to a finding shows it, whatever is folded or filtered away.
 
 function reveal() {
-  const target = location.hash && document.getElementById(decodeURIComponent(location.hash.slice(1)));
+  const target = location.hash && document.getElementById(location.hash.slice(1));
   if (!target) return;
   if (target.classList.contains("away")) form.reset();
   for (let fold = target.closest("details"); fold; fold = fold.parentElement.closest("details")) fold.open = true;

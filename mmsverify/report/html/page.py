@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from base64 import b64encode
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
 from hashlib import sha256
 from importlib.resources import files
@@ -34,6 +34,7 @@ def page(audit: Audit, dossier: Dossier) -> str:
     findings = numbered(audit)
     style, script = _asset("page.css"), _asset("page.js")
     policy = f"default-src 'none'; style-src '{_hash(style)}'; script-src '{_hash(script)}'; img-src data:"
+    policy += "; base-uri 'none'; form-action 'none'"
     return f"""<!DOCTYPE html>
 <html lang="en">
 <head>
@@ -119,7 +120,8 @@ def _first(findings: Sequence[Numbered]) -> str:
         return ""
     items = "".join(
         f"<li><b>{text(device or each.finding.path)}</b> {clock(each.finding.time)} "
-        f'<a href="#{each.anchor}">{text(each.finding.message)}</a></li>\n'
+        f'<a href="#{each.anchor}">{text(each.finding.message)}</a> '
+        f"<small>{text(each.finding.path)}</small></li>\n"
         for (_, device), each in first.items()
     )
     return f'<section id="first"><h2>What was wrong first</h2><ul>\n{items}</ul></section>'
@@ -129,9 +131,10 @@ def _first(findings: Sequence[Numbered]) -> str:
 
 
 def _devices(findings: Sequence[Numbered], dossier: Dossier) -> str:
-    shown = "".join(
-        _device(incident, findings) for incident in dossier.incidents.values() if incident.devices
-    )
+    own: dict[tuple[str, str | None], list[Numbered]] = {}
+    for each in findings:
+        own.setdefault((each.finding.path, each.finding.vmd), []).append(each)
+    shown = "".join(_device(incident, own) for incident in dossier.incidents.values() if incident.devices)
     if not shown:
         return ""
     tools = (
@@ -143,15 +146,13 @@ def _devices(findings: Sequence[Numbered], dossier: Dossier) -> str:
     return f'<section id="devices"><h2>State over time</h2>\n{KEY}{tools}{shown}</section>'
 
 
-def _device(incident: Incident, findings: Sequence[Numbered]) -> str:
+def _device(incident: Incident, findings: Mapping[tuple[str, str | None], Sequence[Numbered]]) -> str:
     told = ""
     for device in incident.devices:
-        own = [
-            e for e in findings if e.finding.path == incident.origin.path and e.finding.vmd == device.device
-        ]
+        own = findings.get((incident.origin.path, device.device), ())
         odd = {each.finding.index for each in own if each.finding.index is not None}
-        about = f"{text(device.model)}, {text(incident.origin.path)}"
-        title = f"<h3>{text(device.device)} <small>{about}</small></h3>"
+        about = f"{text(device.model or 'not judged')}, {text(incident.origin.path)}"
+        title = f"<h3>{text(device.device or '(without a name)')} <small>{about}</small></h3>"
         told += element(
             "section",
             f"{title}\n{timeline(device, own)}{folded('The path through its states', path(device, odd))}",
@@ -188,15 +189,14 @@ def _filters(findings: Sequence[Numbered]) -> str:
 
 
 def _choice(name: str, values: Sequence[str]) -> str:
-    options = "".join(f"<option>{text(value)}</option>" for value in values if value)
+    options = "".join(element("option", text(value), value=value) for value in values if value)
     return f'<label>{name} <select name="{name}"><option value="">all</option>{options}</select></label>'
 
 
 def _group(group: Group, dossier: Dossier) -> str:
     device = text(group.device) if group.device else text(group.path)
-    title = (
-        f"<h3>{device}: {text(group.clause)} <small>{counted(len(group.findings), 'finding')}</small></h3>"
-    )
+    about = f"{counted(len(group.findings), 'finding')}, {text(group.path)}"
+    title = f"<h3>{device}: {text(group.clause)} <small>{about}</small></h3>"
     wholes = "".join(whole(each, dossier) for each in group.findings if each.whole)
     return element("section", f"{title}\n{wholes}{_lines(group)}", class_="group") + "\n"
 

@@ -49,11 +49,11 @@ def chart(said: Sequence[Saying], finding: int, related: Set[int]) -> str:
 
 
 def _breaks(said: Sequence[Saying]) -> dict[int, int]:
-    """The messages before which others are left out, with how many."""
+    """The messages before which others of the device are left out, with how many."""
     return {
-        other.index: other.index - one.index - 1
+        other.index: other.number - one.number - 1
         for one, other in pairwise(said)
-        if other.index > one.index + 1
+        if other.number > one.number + 1
     }
 
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from bisect import bisect_right
 from collections import Counter
 from collections.abc import Sequence, Set
 from itertools import pairwise
 from math import cos, hypot, pi, sin
 from typing import NamedTuple
 
-from mmsverify.incident import DeviceLine, Lane
+from mmsverify.incident import Change, DeviceLine, Lane
 from mmsverify.report.html.text import element, text
 
 STATES = ("robot state, reported", "robot state", "mode")
@@ -34,15 +33,14 @@ def path(line: DeviceLine, odd: Set[int]) -> str:
 
 
 def _drawn(lane: Lane, odd: Set[int]) -> str:
-    sure = [change for change in lane.changes if change.words and " | " not in change.words]
-    at = sorted(odd)
     steps: Counter[tuple[str, str]] = Counter()
     wrong: set[tuple[str, str]] = set()
-    for one, other in pairwise(sure):
-        if one.words != other.words:
+    for one, other in pairwise(lane.changes):
+        if _sure(one) and _sure(other):  # what was between, where it is not known, nobody can say
             steps[one.words, other.words] += 1
-            if bisect_right(at, one.index) < bisect_right(at, other.index):
+            if other.index in odd:
                 wrong.add((one.words, other.words))
+    sure = list(filter(_sure, lane.changes))
     states = list(dict.fromkeys(change.words for change in sure))[:MOST]
     if len(states) < 2:
         return ""
@@ -63,6 +61,10 @@ def _drawn(lane: Lane, odd: Set[int]) -> str:
     )  # fmt: skip
     key = "numbers: how often; red: with a finding; bold frame: the last one"
     return f'<p class="key">{text(lane.name)} ({key})</p>{drawn}'
+
+
+def _sure(change: Change) -> bool:
+    return bool(change.words) and " | " not in change.words
 
 
 def _places(states: Sequence[str]) -> dict[str, Box]:

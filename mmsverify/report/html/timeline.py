@@ -83,7 +83,7 @@ def _whole(time: int) -> int:
 
 def _lane(lane: Lane, line: DeviceLine, span: int) -> str:
     return "".join(
-        _part(part, line.begin, span) for part in thinned(lane.changes, line.end, span // MOST_PARTS)
+        _part(part, line.begin, span) for part in thinned(lane.changes, line.end, max(span // MOST_PARTS, 1))
     )
 
 
@@ -93,10 +93,10 @@ def thinned(changes: Sequence[Change], end: int, least: int) -> Iterator[Part]:
     some: list[Part] = []
     for change, until in zip(changes, ends, strict=True):
         part = Part(change.time, until, change.words, change.index)
-        if some and (until - change.time > least or until - some[0].begin > least):
+        if some and (until - change.time >= least or until - some[0].begin >= least):
             yield _together(some)
             some = []
-        if until - change.time > least or not least:
+        if until - change.time >= least:
             yield part
         else:
             some.append(part)
