@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from mmsverify.samples.cell import ARM, OFFERED, ROBOT_ADDITIONAL, Cell, resumption, selection
 from mmsverify.samples.pdus import ALL_WELL, controlling, robot_status, status, vmd
 from mmsverify.samples.recording import Recording
@@ -12,10 +14,12 @@ EXECUTING, PAUSED, INTERVENTION = "robot-executing", "robot-motion-paused", "man
 SEMAPHORE = {"semaphoreName": vmd("R_CTRL")}
 
 
-def prepared(vmd_name: str) -> Cell:
-    """A robot with two task programs, nothing selected."""
+def prepared(vmd_name: str, maker: Mapping[str, str] | None = None) -> Cell:
+    """A robot with two task programs, nothing selected; ``maker`` is what Identify gives, if it is asked."""
     cell = Cell(Recording(vmd_name))
     cell.begin()
+    if maker is not None:
+        cell.call("identify", gives=maker)
     cell.status(IDLE)
     cell.arm("idle")
     for name in (DOOR, ROOF):
@@ -25,9 +29,8 @@ def prepared(vmd_name: str) -> Cell:
     return cell
 
 
-def faulty_select() -> Recording:
-    """Select does not ask whether the selected program is through; Start does not ask what is selected."""
-    cell = prepared("weld3")
+def stop_midway(cell: Cell) -> None:
+    """One of the programs is stopped in the middle of its work."""
     cell.select(DOOR, ARM)
     cell.start(DOOR, cycles=4)
     cell.status(EXECUTING, DOOR)
@@ -36,6 +39,12 @@ def faulty_select() -> Recording:
     cell.recording.wait(2)
     cell.tell_status(PAUSED, DOOR)
     cell.attributes(DOOR, "stopped", controlling([ARM], ("cycleLimited", 3)))
+
+
+def faulty_select() -> Recording:
+    """Select does not ask whether the selected program is through; Start does not ask what is selected."""
+    cell = prepared("weld3")
+    stop_midway(cell)
     cell.select(ROOF)
     cell.recording.wait(5)
     cell.status(READY, ROOF)

@@ -3,7 +3,18 @@
 from __future__ import annotations
 
 from mmsverify.samples.cell import ARM, CONFLICT, Cell, selection
-from mmsverify.samples.faults import DOOR, EXECUTING, IDLE, INTERVENTION, LOADED, PAUSED, READY, ROOF
+from mmsverify.samples.faults import (
+    DOOR,
+    EXECUTING,
+    IDLE,
+    INTERVENTION,
+    LOADED,
+    PAUSED,
+    READY,
+    ROOF,
+    prepared,
+    stop_midway,
+)  # fmt: skip
 from mmsverify.samples.pdus import ALL_WELL, controlling, robot_status, status
 from mmsverify.samples.recording import Recording
 
@@ -32,24 +43,8 @@ def after() -> Recording:
 
 def _prepared(revision: str) -> Cell:
     """Two programs, one of them stopped in the middle of its work."""
-    cell = Cell(Recording("weld8"))
-    cell.begin()
-    maker = {"vendorName": "Nordarm", "modelName": "NW-16", "revision": revision}
-    cell.call("identify", gives=maker)
-    cell.status(IDLE)
-    cell.arm("idle")
-    for name in (DOOR, ROOF):
-        cell.download(name, [b"JOB", b"END"])
-        cell.create(name)
-    cell.status(LOADED)
-    cell.select(DOOR, ARM)
-    cell.start(DOOR, cycles=4)
-    cell.status(EXECUTING, DOOR)
-    cell.recording.wait(20)
-    cell.run("stop", DOOR)
-    cell.recording.wait(2)
-    cell.tell_status(PAUSED, DOOR)
-    cell.attributes(DOOR, "stopped", controlling([ARM], ("cycleLimited", 3)))
+    cell = prepared("weld8", {"vendorName": "Nordarm", "modelName": "NW-16", "revision": revision})
+    stop_midway(cell)
     return cell
 
 
