@@ -105,26 +105,6 @@ class Learned(Generic[P]):
         classes: Classes,
         judge: Judge[P] | None = None,
     ) -> Iterator[Finding]:
-        """The findings of a message that was not followed by the tables alone, as `_heard_alone` takes it."""
-        yield from self._heard_alone(message, stretch, parts, classes, judge)
-        if self._watch is not None:
-            self._look(self._watch, message, stretch)
-
-    def _look(self, watch: Watch, message: TraceMessage, stretch: Stretch) -> None:
-        """Tell what is known after a message, if no trail is left that tells it."""
-        if not self.trail:
-            state = self.state
-            shows = state.shows if state is not None else None
-            watch(message.index, message.time, self.awake(stretch).shows() if shows is None else shows)
-
-    def _heard_alone(
-        self,
-        message: TraceMessage,
-        stretch: Stretch,
-        parts: tuple[bytes, int | None] | None,
-        classes: Classes,
-        judge: Judge[P] | None = None,
-    ) -> Iterator[Finding]:
         """The findings of a message that was not followed by the tables alone.
 
         ``parts``: the message without its invokeID, and that; ``None`` where the message has no class.
@@ -135,9 +115,22 @@ class Learned(Generic[P]):
             part = self.awake(stretch)
             self.state = None
             yield from act(part, marked, None)
-            return
-        rest, invoke = parts
-        number = self.tables.number(classes, rest, message.data, whole=judge is not None or self._whole)
+        else:
+            whole = judge is not None or self._whole
+            number = self.tables.number(classes, parts[0], message.data, whole=whole)
+            yield from self._classed(act, number, parts, marked, stretch)
+        if self._watch is not None:
+            self._look(self._watch, message, stretch)
+
+    def _classed(
+        self,
+        act: Judge[P],
+        number: int,
+        parts: tuple[bytes, int | None],
+        marked: TraceMessage,
+        stretch: Stretch,
+    ) -> Iterator[Finding]:
+        """The findings of a message that has a class."""
         if number not in self.tables.seen:  # the first of a class is only noted
             self.tables.seen.add(number)
             part = self.awake(stretch)
@@ -146,8 +139,15 @@ class Learned(Generic[P]):
             return
         if self.state is None:
             self._intern(self.awake(stretch))
-        if not self._known(number, invoke, stretch):
+        if not self._known(number, parts[1], stretch):
             yield from self._learn(act, number, parts, marked, stretch)
+
+    def _look(self, watch: Watch, message: TraceMessage, stretch: Stretch) -> None:
+        """Tell what is known after a message, if no trail is left that tells it."""
+        if not self.trail:
+            state = self.state
+            shows = state.shows if state is not None else None
+            watch(message.index, message.time, self.awake(stretch).shows() if shows is None else shows)
 
     def _reading(self, number: int) -> Read | None:
         """How messages of a class are read, so that the values that it leaves out can be told from others."""
