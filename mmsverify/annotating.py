@@ -221,11 +221,13 @@ class _States:
         for line in devices:
             if not line.lanes:
                 continue
-            self._devices[line.device] = _device(line)
+            # A robot and a controller may have one name: the second one's topic tells its model, too.
+            name = line.device if line.device not in self._devices else f"{line.device}/{line.model}"
+            self._devices[name] = _device(name, line)
             for lane in line.lanes:
                 for change in lane.changes:
                     at = self._changes.setdefault(change.index, {})
-                    at.setdefault(line.device, []).append((lane.name, change.words))
+                    at.setdefault(name, []).append((lane.name, change.words))
 
     def at(self, index: int) -> Iterator[tuple[Channel, Mapping[str, Any]]]:
         """The devices of which another thing is known from this message on, with all that is known."""
@@ -240,7 +242,7 @@ class _States:
             yield device.channel, device.state
 
 
-def _device(line: DeviceLine) -> _Device:
+def _device(name: str, line: DeviceLine) -> _Device:
     fields: dict[str, tuple[str, tuple[str, ...]]] = {}
     properties: dict[str, Any] = {"index": INTEGER}
     state: dict[str, Any] = {"index": 0}
@@ -252,8 +254,8 @@ def _device(line: DeviceLine) -> _Device:
         if table:
             properties[f"{field}_code"] = {**enumeration(table), "title": lane.name}
             state[f"{field}_code"] = UNKNOWN
-    kind = schema(f"mmsverify.State.{line.device}", properties)
-    return _Device(Channel(STATE + line.device, "json", kind, ADDED), state, fields)
+    kind = schema(f"mmsverify.State.{name}", properties)
+    return _Device(Channel(STATE + name, "json", kind, ADDED), state, fields)
 
 
 def _field(lane: Lane, taken: Mapping[str, Any]) -> str:

@@ -10,17 +10,18 @@ from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
-from mmsverify.audit.causes.gathering import CONTROLLER, SERVER, Stretch, gather
+from mmsverify.audit.causes.gathering import Stretch, gather
 from mmsverify.audit.causes.retelling import Setting
 from mmsverify.audit.causes.robots import Robots
 from mmsverify.audit.causes.samples import Samples
 from mmsverify.audit.causes.signals import Signals
 from mmsverify.audit.learning.lasting import of_thread
 from mmsverify.audit.lookahead import Lookahead
-from mmsverify.audit.parts import FRAMEWORK, Parts
-from mmsverify.audit.replay import SAMPLES, Replay
+from mmsverify.audit.parts import FRAMEWORK, SIGNALS, Parts
+from mmsverify.audit.replay import Replay
 from mmsverify.audit.telling import Place
 from mmsverify.audit.vr import SCAN, Controller, Stage
+from mmsverify.audit.whose import SAMPLES
 from mmsverify.errors import InputError, MmsverifyError, UsageError
 from mmsverify.formats.locations import Location, located
 from mmsverify.formats.mcap import McapTrace, read_trace
@@ -182,9 +183,9 @@ class _Explaining:
 
     def _teller(self, stretch: Stretch) -> Robots | Signals | Samples:
         place = Place(self._trace.path, stretch.device)
-        if stretch.kind == SERVER:
+        if stretch.model == SIGNALS:
             return Signals(self._parts, place, stretch.messages)
-        if stretch.kind == CONTROLLER:
+        if stretch.model == FRAMEWORK:
             return Samples(self._parts, place, stretch.messages)
         base_only = frozenset(name for device, name in self._ahead.base_only if device == stretch.device)
         blind = tuple(self._ahead.blind(stretch.device))

@@ -14,11 +14,11 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 
-from mmsverify.audit.lookahead import link
 from mmsverify.audit.parts import FRAMEWORK, ROBOT, SIGNALS
-from mmsverify.audit.replay import SAMPLES, Replay
+from mmsverify.audit.replay import Replay
 from mmsverify.audit.saying import Reader
 from mmsverify.audit.spoken import Listener
+from mmsverify.audit.whose import Place, whose
 from mmsverify.errors import InputError
 from mmsverify.explaining import explain_findings
 from mmsverify.formats.locations import Location, located
@@ -43,9 +43,8 @@ MOST_EXPLAINED, MOST_ACCOUNTS = 8, 40
 """Findings of one recording, and of an audit, of which it is found out why they stand: that takes seconds."""
 MOST_WINDOWS = 400
 """Findings of one recording whose surroundings are kept."""
-BLOCK = 1 << 20
-Place = tuple[str, str]
-"""A device and the model that judges it."""
+NOBODY: Place = ("", "")
+"""Whose the messages are that no model knows."""
 Kept = tuple[Place, int, TraceMessage]
 """A message with its device, and the number that it has among that device's messages."""
 
@@ -214,7 +213,7 @@ def _spans(trace: McapTrace, surroundings: Surroundings) -> dict[Place, Span]:
     """When each device was heard; on the way, what was said around the findings is taken down."""
     spans: dict[Place, Span] = {}
     for message in _readable(trace):
-        place = _place(message)
+        place = whose(message) or NOBODY
         span = spans.get(place)
         if span is None:
             span = spans[place] = Span(message.time)
@@ -225,19 +224,6 @@ def _spans(trace: McapTrace, surroundings: Surroundings) -> dict[Place, Span]:
         surroundings.pass_by(place, message, span)
     surroundings.end()
     return spans
-
-
-def _place(message: TraceMessage) -> Place:
-    """Whose message it is, and which model judges it; a name may be that of a robot and of a controller."""
-    names = message.metadata
-    if message.message_encoding == "mms-ber":
-        return names.get("vmd", ""), ROBOT
-    if message.message_encoding == "modbus-tcp":
-        return names.get("controller", ""), SIGNALS
-    if message.schema_name == SAMPLES:
-        return names.get("controller", ""), FRAMEWORK
-    roles = {"mms": ROBOT, "modbus": SIGNALS}
-    return next(((names.get("name", ""), roles[role]) for role in roles if link(message, role)), ("", ""))
 
 
 def _readable(trace: McapTrace) -> Iterator[TraceMessage]:
@@ -318,8 +304,6 @@ def _origin(trace: McapTrace) -> Origin:
     path = Path(trace.path)
     if not path.is_file():
         return Origin(trace.path, trace.octets, "")
-    digest = hashlib.sha256()
     with path.open("rb") as file:
-        while block := file.read(BLOCK):
-            digest.update(block)
-    return Origin(trace.path, path.stat().st_size, digest.hexdigest())
+        digest = hashlib.file_digest(file, "sha256").hexdigest()
+    return Origin(trace.path, path.stat().st_size, digest)

@@ -13,6 +13,7 @@ from typing import Any
 
 from mmsverify.audit.saying import Reader
 from mmsverify.audit.spoken import Listener
+from mmsverify.audit.whose import SAMPLES
 from mmsverify.audit.words import LOGICAL, PHYSICAL, ROBOT_STATE
 from mmsverify.errors import DecodeError
 from mmsverify.events import MmsEvent
@@ -105,7 +106,7 @@ class Decoder:
             how = MMS, self._mms
         elif message.message_encoding == "modbus-tcp":
             how = MODBUS, self._modbus
-        elif message.schema_name == "vr.Sample":
+        elif message.schema_name == SAMPLES:
             how = VR, self._sample
         else:
             return None

@@ -20,6 +20,7 @@ from mmsverify.audit.modbus import Server
 from mmsverify.audit.parts import FRAMEWORK, ROBOT, SIGNALS, Parts, Tables
 from mmsverify.audit.telling import History, Place
 from mmsverify.audit.vr import Controller
+from mmsverify.audit.whose import SAMPLES
 from mmsverify.concrete.belief.coverage import Coverage
 from mmsverify.errors import InputError, UsageError
 from mmsverify.formats.mcap import McapTrace
@@ -31,7 +32,6 @@ from mmsverify.results import Finding
 if TYPE_CHECKING:
     from mmsverify.audit.learning.kernel import Kernel
 
-SAMPLES = "vr.Sample"
 LONG = 16 << 20
 """From so many octets on, a recording is worth the time that it takes to make the compiled loops ready."""
 Judge = Listener | Callable[[TraceMessage, Stretch], Iterator[Finding]]

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 from mmsverify.audit import words
 from mmsverify.audit.lookahead import link
 from mmsverify.audit.spoken import Listener
+from mmsverify.audit.whose import SAMPLES
 from mmsverify.errors import DecodeError
 from mmsverify.events import MmsEvent
 from mmsverify.formats import mms, modbus, vr
@@ -33,7 +34,7 @@ class Reader:
             return self._mms(message)
         if message.message_encoding == "modbus-tcp":
             return self._modbus(message)
-        if message.schema_name == "vr.Sample":
+        if message.schema_name == SAMPLES:
             return _sample(message)
         said = _beside(message)
         self._listener.forget(said.device, said.partner)

@@ -150,6 +150,17 @@ def test_the_state_is_told_where_it_changes_in_words_and_in_numbers(tmp_path: Pa
     assert all(before != after for before, after in pairwise(states))
 
 
+def test_a_robot_and_a_controller_of_one_name_have_a_state_each(tmp_path: Path) -> None:
+    source = tmp_path / "same.mcap"
+    with TraceWriter(source) as trace:
+        for message in read_trace(FAULTY):
+            trace.add(message.time, message.channel, message.data)
+            trace.add(message.time, Channel.vr("weld5", "polled"), b'{"C_RunMD":0}')
+    out = annotated(tmp_path / "out.mcap", source)
+    assert "robot_state" in told(out, "/mmsverify/state/weld5")[0]
+    assert told(out, "/mmsverify/state/weld5/vr-template")[0]["mode"] == "Idle"
+
+
 def test_a_controller_without_a_command_has_none(tmp_path: Path) -> None:
     press = told(
         annotated(tmp_path / "out.mcap", traces_dir() / "faulty-press.mcap"), "/mmsverify/state/press3"

@@ -12,10 +12,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 
 from mmsverify.audit.lookahead import INITIATES, link
+from mmsverify.audit.parts import ROBOT
+from mmsverify.audit.whose import Place, whose
 from mmsverify.formats.trace import TraceMessage
 from mmsverify.results import Finding
 
-ROBOT, SERVER, CONTROLLER = "robot", "server", "controller"
 AFTER, LONG_AFTER = 30, 130
 LATE = frozenset({"event.missing", "protocol.unanswered"})
 """Rules that are told of a message only when others have gone by."""
@@ -28,7 +29,7 @@ LONGEST = 4000
 class Stretch:
     """Some messages of one device, and the findings among them. ``whole``: they begin with its first."""
 
-    kind: str
+    model: str
     device: str
     messages: list[TraceMessage]
     findings: list[Finding] = field(default_factory=list)
@@ -40,7 +41,7 @@ class Stretch:
 class _Device:
     """What is kept of a device that goes by. ``initiates``: the last of each open association."""
 
-    kind: str
+    model: str
     lately: deque[TraceMessage]
     passed: int = 0
     initiates: dict[str, list[TraceMessage]] = field(default_factory=dict)
@@ -54,35 +55,22 @@ def gather(messages: Iterable[TraceMessage], findings: Sequence[Finding], before
         if finding.index is not None:
             wanted.setdefault(finding.index, []).append(finding)
     names = {finding.vmd for finding in findings}
-    devices: dict[tuple[str, str], _Device] = {}
+    devices: dict[Place, _Device] = {}
     last = max(wanted, default=-1)
     for message in messages:
         if message.index > last and all(device.open is None for device in devices.values()):
             break
-        for key in _whose(message):
-            if key[1] not in names:
-                continue
-            device = devices.get(key)
-            if device is None:
-                kept = deque[TraceMessage](maxlen=before + 1 if key[0] == ROBOT else LONGEST)
-                device = devices[key] = _Device(key[0], kept)
-            yield from _pass_by(device, key[1], message, wanted.get(message.index, []))
+        place = whose(message)
+        if place is None or place[0] not in names:
+            continue
+        device = devices.get(place)
+        if device is None:
+            kept = deque[TraceMessage](maxlen=before + 1 if place[1] == ROBOT else LONGEST)
+            device = devices[place] = _Device(place[1], kept)
+        yield from _pass_by(device, place[0], message, wanted.get(message.index, []))
     for device in devices.values():
         if device.open is not None:
             yield device.open
-
-
-def _whose(message: TraceMessage) -> list[tuple[str, str]]:
-    """The device of a message; of a link event it depends on its role."""
-    names = message.metadata
-    if message.message_encoding == "mms-ber":
-        return [(ROBOT, names.get("vmd", ""))]
-    if message.message_encoding == "modbus-tcp":
-        return [(SERVER, names.get("controller", ""))]
-    if message.schema_name == "vr.Sample":
-        return [(CONTROLLER, names.get("controller", ""))]
-    roles = ((ROBOT, "mms"), (SERVER, "modbus"))
-    return [(kind, names.get("name", "")) for kind, role in roles if link(message, role) is not None]
 
 
 def _pass_by(device: _Device, name: str, message: TraceMessage, found: list[Finding]) -> Iterator[Stretch]:
@@ -101,7 +89,7 @@ def _pass_by(device: _Device, name: str, message: TraceMessage, found: list[Find
     elif stretch is not None and stretch.left <= 0:
         device.open = None
         yield stretch
-    if device.kind == ROBOT:
+    if device.model == ROBOT:
         _remember(device, message)
 
 
@@ -110,7 +98,7 @@ def _opened(device: _Device, name: str) -> Stretch:
     begin = lately[0].index
     agreed = [said for pair in device.initiates.values() for said in pair if said.index < begin]
     agreed.sort(key=lambda said: said.index)
-    return Stretch(device.kind, name, agreed + lately, whole=len(lately) == device.passed)
+    return Stretch(device.model, name, agreed + lately, whole=len(lately) == device.passed)
 
 
 def _remember(device: _Device, message: TraceMessage) -> None:
