@@ -116,8 +116,18 @@ def alone(fleet: Path) -> object:
     return timeless(run(fleet).communicate()[0])
 
 
+HEEDING = """
+import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
+if __name__ == "__main__":
+    from mmsverify.cli import main
+    sys.exit(main())
+"""
+
+
 def run(fleet: Path, *options: str) -> subprocess.Popen[str]:
-    command = [sys.executable, "-m", "mmsverify", "audit", str(fleet), "--format", "json", *options]
+    """An audit that heeds interrupts, though whoever runs the tests may have been begun deaf to them."""
+    command = [sys.executable, "-c", HEEDING, "audit", str(fleet), "--format", "json", *options]
     return subprocess.Popen(
         command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True
     )
